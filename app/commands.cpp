@@ -70,6 +70,8 @@ namespace seldinger::app {
   ROW(user_add)                 \
   ROW(user_list)                \
   ROW(user_passwd)              \
+  ROW(user_invite)              \
+  ROW(user_reset)               \
   ROW(user_level)               \
   ROW(user_disable)             \
   ROW(user_enable)              \

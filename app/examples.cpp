@@ -66,6 +66,8 @@ constexpr std::string_view kLines[] = {
     "user add tom --role trainee --library new --new-library",
     "user list",
     "user passwd dora",
+    "user invite tina --role trainee",
+    "user reset dora",
     "user level expert --level consultant",
     "user fact novice confidence 4",
     "user role rita --role researcher",

@@ -354,6 +354,13 @@ CREATE TABLE open_chunk (
   PRIMARY KEY (attempt_id, sequence)
 ) STRICT;
 
+CREATE TABLE password_link (
+  secret_hash TEXT NOT NULL PRIMARY KEY CHECK (length(secret_hash) = 64), -- SHA-256; the link has only who was given it
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  password_mark TEXT NOT NULL, -- of the password, role and epoch at which it was made
+  ends_us INTEGER NOT NULL
+) STRICT;
+
 CREATE TABLE person (
   person_id TEXT NOT NULL PRIMARY KEY CHECK (length(person_id) = 36),
   pseudonym TEXT NOT NULL UNIQUE, -- random; what others than mentors see
@@ -759,6 +766,10 @@ CREATE INDEX audit_by_object ON audit (object_id, act);
 CREATE INDEX audit_of_changes ON audit (sequence)
 WHERE act NOT IN ('log_in', 'log_out', 'let_in_again', 'unproven', 'not_allowed', 'comment_attempt');
 
+CREATE INDEX audit_of_everybodys_records ON audit (sequence)
+WHERE act IN ('publish_case', 'retire_case', 'publish_curriculum', 'retire_curriculum', 'import_cases', 'erase_case',
+              'recompute', 'repair', 'accept_damaged', 'restore');
+
 CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE withdrawn_us IS NULL;
 
 CREATE UNIQUE INDEX consent_text_version ON consent_text (coalesce(study_id, ''), version);
@@ -772,6 +783,8 @@ CREATE UNIQUE INDEX desk_response_by_round ON desk_response (round_id, person_id
 CREATE INDEX enrolment_by_person ON enrolment (person_id);
 
 CREATE INDEX lesion_by_case ON lesion (case_id);
+
+CREATE INDEX password_link_of_person ON password_link (person_id);
 
 CREATE UNIQUE INDEX questionnaire_by_form ON questionnaire (form_id, version, language);
 

@@ -119,6 +119,32 @@ class LibraryQuestions final : public Questions {
     return casedb::list_users(pages_.library);
   }
 
+  base::Result<casedb::PasswordLink> invite_user(const std::string& admin_id, const std::string& name,
+                                                 casedb::Role role) override {
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor admin(changes_.library, admin_id);
+    return casedb::invite_user(changes_.library, name, role);
+  }
+
+  base::Result<casedb::PasswordLink> make_password_link(const std::string& admin_id,
+                                                        const std::string& name) override {
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor admin(changes_.library, admin_id);
+    return casedb::make_password_link(changes_.library, name);
+  }
+
+  std::optional<casedb::Account> account_of_password_link(const std::string& secret) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::account_of_password_link(pages_.library, secret);
+  }
+
+  base::Result<void> set_password_by_link(const std::string& secret, const std::string& person_id,
+                                          const std::string& password) override {
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor owner(changes_.library, person_id);
+    return casedb::set_password_by_link(changes_.library, secret, password);
+  }
+
   std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::relations_of(pages_.library, reader_id);
@@ -408,7 +434,7 @@ class LibraryQuestions final : public Questions {
     return heavily(work_.check, row.case_id);
   }
 
-  base::Result<std::string> pictures_of(const std::string& attempt_id) override {
+  base::Result<reports::DrawnPictures> pictures_of(const std::string& attempt_id) override {
     if (!work_.pictures) return base::Error{"not_drawn", "pictures of a replay are not drawn here"};
     return heavily(work_.pictures, attempt_id);
   }

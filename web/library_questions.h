@@ -12,10 +12,11 @@ namespace seldinger::web {
 
 // What is done with volumes and pictures, each in a library of its own; empty: not done here.
 using CaseChecker = std::function<base::Result<casedb::CaseCheck>(casedb::Library&, const std::string& case_id)>;
-using PicturesMaker = std::function<base::Result<std::string>(casedb::Library&, const std::string& attempt_id)>;
+using PicturesMaker =
+    std::function<base::Result<reports::DrawnPictures>(casedb::Library&, const std::string& attempt_id)>;
 struct HeavyWork {
   CaseChecker check{};
-  PicturesMaker pictures{};  // markup, as reports/sheets/moments_sheet.h
+  PicturesMaker pictures{};
 };
 
 // Opens further handles of the same library, so that reading a recording and hashing a password hold up no page.

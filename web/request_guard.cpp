@@ -15,8 +15,9 @@ constexpr std::string_view kPathCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefgh
 constexpr std::string_view kTokenCharacters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789!#$%&'*+-.^_`|~";
 
-constexpr std::array<std::string_view, 8> kKept = {"host",   "x-forwarded-for", "content-type",   "content-length",
-                                                   "cookie", "origin",          "sec-fetch-site", "accept"};
+constexpr std::array<std::string_view, 9> kKept = {"host",           "x-forwarded-for", "content-type",
+                                                   "content-length", "cookie",          "origin",
+                                                   "sec-fetch-site", "accept",          "if-none-match"};
 
 bool is_token(std::string_view text) {
   return !text.empty() && text.find_first_not_of(kTokenCharacters) == text.npos;

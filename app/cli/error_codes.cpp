@@ -334,6 +334,8 @@ constexpr ErrorCode kQuestionnaireCodes[] = {
     {"no_rater", kRefuses, "Nobody rates with that key.", "Look whether it is typed right."},
     {"no_rating", kRefuses, "There is no replay of that number on the rater's bench.", ""},
     {"rating_sent", kRefuses, "A rating was sent, and stays as it is.", ""},
+    {"no_link", kRefuses, "A one-time link to set a password is unknown, used or over.",
+     "Ask for another: `seldinger user reset`."},
     {"no_draft", kRefuses, "There are no answers that were begun here, or they were sent.", "Begin anew."}};
 
 constexpr ErrorCode kSceneCodes[] = {{"bad_scene", kRefuses, "A scene file is not as docs/scenes/README.md has it.",

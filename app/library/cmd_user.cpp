@@ -1,4 +1,4 @@
-// user add, list, passwd, level, role, disable, enable, unlock.
+// user add, list, passwd, invite, reset, level, role, disable, enable, unlock.
 #include <cstdio>
 
 #include "app/acting/acting.h"
@@ -7,9 +7,12 @@
 #include "app/cli/command.h"
 #include "casedb/database/credentials.h"
 #include "casedb/people/noted_tries.h"
+#include "casedb/people/password_links.h"
 
 namespace seldinger::app {
 namespace {
+
+constexpr const char* kPagesAt = "http://127.0.0.1:8080";
 
 std::optional<casedb::Level> level_of(const Arguments& arguments) {
   if (!arguments.has("--level")) return std::nullopt;
@@ -110,11 +113,37 @@ int run_user_unlock(const Arguments& arguments) {
   return done ? kDone : refuse(done.error());
 }
 
+int print_link(const Arguments& arguments, base::Result<casedb::PasswordLink> link) {
+  if (!link) return refuse(link.error());
+  std::printf("%s/password?link=%s\n", arguments.text("--at", kPagesAt).c_str(), link->secret.c_str());
+  casedb::wipe(link->secret);
+  return kDone;
+}
+
+int run_user_invite(const Arguments& arguments) {
+  const auto role = casedb::role_from(arguments.required("--role"));
+  if (!role) throw UsageError("--role is trainee, mentor, researcher, director or admin");
+  auto library = open_acting(arguments);
+  if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
+  return print_link(arguments, casedb::invite_user(*library, arguments.positional(0), *role));
+}
+
+int run_user_reset(const Arguments& arguments) {
+  auto library = open_acting(arguments);
+  if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
+  return print_link(arguments, casedb::make_password_link(*library, arguments.positional(0)));
+}
+
 constexpr Option kLevelOption{"--level", "student|trainee|consultant",
                               "who somebody is from now on: attempts of consultants set the standard"};
 
 constexpr Option kRoleOption{"--role", "trainee|mentor|researcher|director|admin", "the role"};
 constexpr Option kUserAddOptions[] = {kLibrary, kRoleOption, kLevelOption, kNewLibrary};
+constexpr Option kAtOption{"--at", "URL", "where the pages are served; default http://127.0.0.1:8080"};
+constexpr Option kUserInviteOptions[] = {kLibrary, kRoleOption, kAtOption};
+constexpr Option kUserResetOptions[] = {kLibrary, kAtOption};
 constexpr Option kUserRoleOptions[] = {kLibrary, kRoleOption};
 
 constexpr Option kUserLevelOptions[] = {kLibrary, kLevelOption};
@@ -145,6 +174,34 @@ Command user_passwd_command() {
           .acts = true,
           .summary = "Sets a password, read from standard input.",
           .run = &run_user_passwd};
+}
+
+Command user_invite_command() {
+  return {
+      .name = "user invite",
+      .positionals = "NAME",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kUserInviteOptions,
+      .acts = true,
+      .summary =
+          "Adds an account without a password, and prints a link with which its owner sets one, once and within "
+          "seven days.",
+      .run = &run_user_invite};
+}
+
+Command user_reset_command() {
+  return {
+      .name = "user reset",
+      .positionals = "NAME",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kUserResetOptions,
+      .acts = true,
+      .summary =
+          "Prints a link with which somebody sets their password anew, once and within a day; the old one holds "
+          "until then.",
+      .run = &run_user_reset};
 }
 
 Command user_level_command() {

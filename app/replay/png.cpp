@@ -8,20 +8,23 @@ namespace seldinger::app {
 
 namespace {
 
-std::vector<std::byte> png_of(std::span<const unsigned char> pixels, int width_px, int height_px, bool colour) {
+// `palette`: of the pixels, which are its numbers; empty: they are greys or colours.
+std::vector<std::byte> png_of(std::span<const unsigned char> pixels, int width_px, int height_px,
+                              png_uint_32 format, std::span<const unsigned char> palette = {}) {
   CHECK(width_px > 0 && height_px > 0);
-  CHECK(pixels.size() == static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) *
-                             (colour ? std::size_t{3} : std::size_t{1}));
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(width_px);
   image.height = static_cast<png_uint_32>(height_px);
-  image.format = colour ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
-  if (colour) image.flags = PNG_IMAGE_FLAG_FAST;  // a replay has hundreds
+  image.format = format;
+  image.colormap_entries = static_cast<png_uint_32>(palette.size());
+  CHECK(pixels.size() == PNG_IMAGE_SIZE(image));
+  if (format == PNG_FORMAT_RGB) image.flags = PNG_IMAGE_FLAG_FAST;  // a replay has hundreds
+  const void* colours = palette.empty() ? nullptr : palette.data();
   png_alloc_size_t size = 0;
-  CHECK(png_image_write_to_memory(&image, nullptr, &size, 0, pixels.data(), 0, nullptr) != 0);
+  CHECK(png_image_write_to_memory(&image, nullptr, &size, 0, pixels.data(), 0, colours) != 0);
   std::vector<std::byte> bytes(size);
-  CHECK(png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) != 0);
+  CHECK(png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, colours) != 0);
   bytes.resize(size);
   return bytes;
 }
@@ -29,11 +32,21 @@ std::vector<std::byte> png_of(std::span<const unsigned char> pixels, int width_p
 }  // namespace
 
 std::vector<std::byte> png_from_grey(std::span<const unsigned char> grey, int width_px, int height_px) {
-  return png_of(grey, width_px, height_px, false);
+  return png_of(grey, width_px, height_px, PNG_FORMAT_GRAY);
+}
+
+std::vector<std::byte> png_in_greys(std::span<const unsigned char> grey, int width_px, int height_px, int greys) {
+  CHECK(greys >= 2 && greys <= 256);
+  std::vector<unsigned char> palette, numbers;
+  for (int i = 0; i < greys; ++i)
+    palette.push_back(static_cast<unsigned char>((255 * i + (greys - 1) / 2) / (greys - 1)));
+  for (const unsigned char one : grey)
+    numbers.push_back(static_cast<unsigned char>((one * (greys - 1) + 127) / 255));
+  return png_of(numbers, width_px, height_px, PNG_FORMAT_GRAY | PNG_FORMAT_FLAG_COLORMAP, palette);
 }
 
 std::vector<std::byte> png_from_rgb(std::span<const unsigned char> rgb, int width_px, int height_px) {
-  return png_of(rgb, width_px, height_px, true);
+  return png_of(rgb, width_px, height_px, PNG_FORMAT_RGB);
 }
 
 }  // namespace seldinger::app

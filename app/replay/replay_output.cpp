@@ -40,6 +40,15 @@ std::vector<std::byte> png_of(const session::GreyPicture& picture) {
                               : std::vector<std::byte>{};
 }
 
+// As a page has them, a dozen beside each other: all of them weigh less than 100 kB.
+constexpr int kSmallWidthPx = 160, kSmallGreys = 16, kPlaneGreys = 32;
+
+reports::SmallPicture small_of(const session::GreyPicture& picture) {
+  if (picture.width_px == 0) return {};
+  const session::GreyPicture small = session::shrunk_to(picture, kSmallWidthPx);
+  return {png_in_greys(small.grey, small.width_px, small.height_px, kSmallGreys), small.width_px, small.height_px};
+}
+
 // What a replay is made of, beside the screen.
 struct Scene {
   cases::Case scene;
@@ -90,14 +99,19 @@ session::Replay walk(const Scene& s, const cases::Recording& recording, session:
                          });
 }
 
-// `note`: when the replay cannot be held against the recording.
+// `note`: when the replay cannot be held against the recording. `small`: of a page that is soon there.
 reports::ReplaySheet sheet_of(const Scene& s, const casedb::AttemptRow& attempt, const cases::Recording& recording,
-                              session::GuidanceScreen& screen, const std::string& note, session::Replay& replayed) {
+                              session::GuidanceScreen& screen, const std::string& note, session::Replay& replayed,
+                              bool small = false) {
   reports::ReplaySheet sheet;
   sheet.attempt = {attempt, label_of(attempt)};
   sheet.note = note;
   sheet.course = s.course;
-  for (const BodyPlane& plane : s.planes) sheet.planes.push_back(row_of(s, plane));
+  for (const BodyPlane& plane : s.planes) {
+    sheet.planes.push_back(row_of(s, plane));
+    if (small)
+      sheet.planes.back().png = png_in_greys(plane.ct.grey, plane.ct.width_px, plane.ct.height_px, kPlaneGreys);
+  }
   const std::vector<assessment::Moment> moments = assessment::telling_moments(s.signals);
   std::vector<session::GreyPicture> pictures;
   const auto take = [&](const assessment::Moment& moment) {
@@ -128,7 +142,10 @@ reports::ReplaySheet sheet_of(const Scene& s, const casedb::AttemptRow& attempt,
       });
   for (; next < moments.size(); ++next) take(moments[next]);
   session::cut_black_edges(pictures);
-  for (std::size_t i = 0; i < pictures.size(); ++i) sheet.moments[i].png = png_of(pictures[i]);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    sheet.moments[i].png = png_of(pictures[i]);
+    if (small) sheet.moments[i].small = small_of(pictures[i]);
+  }
   return sheet;
 }
 
@@ -232,7 +249,7 @@ base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb:
   return reports::blinded_replay(std::move(sheet));
 }
 
-base::Result<std::string> telling_pictures(casedb::Library& library, const std::string& attempt_id) {
+base::Result<reports::DrawnPictures> telling_pictures(casedb::Library& library, const std::string& attempt_id) {
   const auto attempt = casedb::find_attempt(library, attempt_id);
   if (!attempt) return attempt.error();
   const auto recording = casedb::load_recording(library, attempt_id);
@@ -242,7 +259,7 @@ base::Result<std::string> telling_pictures(casedb::Library& library, const std::
   session::GuidanceScreen screen(s->scene, recording->hashes.empty() ? 0 : recording->hashes.back());
   session::Replay replayed;
   const reports::ReplaySheet sheet =
-      sheet_of(*s, *attempt, *recording, screen, is_comparable(*recording) ? "" : kNotVerified, replayed);
+      sheet_of(*s, *attempt, *recording, screen, is_comparable(*recording) ? "" : kNotVerified, replayed, true);
   if (!replayed.same && is_comparable(*recording))
     return base::Error{"replay_differs",
                        "the replay is not tick for tick what was recorded: nothing is drawn of it"};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "casedb/attempts/attempts.h"
+#include "reports/pages/attempt_page.h"
 #include "session/attempt/replayed_attempt.h"
 
 namespace seldinger::app {
@@ -27,7 +28,7 @@ base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb:
 
 // The pictures of an attempt at its telling moments (assessment/moments.h), as reports/sheets/moments_sheet.h.
 // Refused: `no_attempt`, `replay_differs`, and as build_case_of and make_signals. Takes seconds.
-base::Result<std::string> telling_pictures(casedb::Library& library, const std::string& attempt_id);
+base::Result<reports::DrawnPictures> telling_pictures(casedb::Library& library, const std::string& attempt_id);
 
 // The attempt as raters see it: reports/sheets/blinded_replay.h. Refused: `not_to_be_rated` (another step version
 // recorded it, or its replay differs), and as build_case_of and make_signals.

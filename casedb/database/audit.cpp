@@ -22,6 +22,7 @@ constexpr ActRow kActRows[] = {
     {Act::log_out, "log_out", "logs out"},
     {Act::add_account, "add_account", "adds an account"},
     {Act::set_password, "set_password", "sets a password"},
+    {Act::make_password_link, "make_password_link", "makes a one-time link to set a password"},
     {Act::set_role, "set_role", "changes a role"},
     {Act::set_level, "set_level", "says who is a consultant"},
     {Act::enable_account, "enable_account", "opens an account again"},

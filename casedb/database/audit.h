@@ -22,6 +22,7 @@ enum class Act {
   log_out,
   add_account,
   set_password,
+  make_password_link,
   set_role,
   set_level,
   enable_account,

@@ -83,6 +83,7 @@ constexpr std::string_view kStaying[] = {"person",
                                          "standard_band",
                                          "login_session",
                                          "web_session",
+                                         "password_link",
                                          "audit",
                                          "audit_head",
                                          "digest"};

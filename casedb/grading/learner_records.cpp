@@ -108,8 +108,9 @@ std::vector<CurriculumRecord> records_of(Library& library, const std::string& pe
 std::string records_mark(Library& library, const std::string& person_id) {
   Statement mark = question(library.database(), "records_mark");
   CHECK(mark.bind("person_id", person_id).step());
-  return std::to_string(mark.integer("act")) + " " + std::to_string(mark.integer("attempts")) + " " +
-         mark.text("newest") + " " + std::to_string(mark.integer("running"));
+  return std::to_string(mark.integer("everybodys")) + " " + std::to_string(mark.integer("ones")) + " " +
+         std::to_string(mark.integer("attempts")) + " " + mark.text("newest") + " " +
+         std::to_string(mark.integer("running"));
 }
 
 assessment::StandingFound standing_in(const CurriculumRecord& record, std::int64_t now_us) {

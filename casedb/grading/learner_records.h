@@ -33,8 +33,9 @@ struct CurriculumRecord {
 // Of every published curriculum, oldest first. A person's attempts are read once.
 std::vector<CurriculumRecord> records_of(Library& library, const std::string& person_id);
 
-// Another text once records_of would answer something else: of that person's attempts, those running among them,
-// and of the last act that changes cases, curricula, people or scores. Four rows are read, whatever the library
+// Another text once records_of would answer something else: of that person's attempts, those running among them, of
+// the last act that enrols them or ends that, and of the last that changes published cases, curricula or scores.
+// Drafts, consent, accounts and other people's enrolments change it not. Five rows are read, whatever the library
 // holds.
 std::string records_mark(Library& library, const std::string& person_id);
 

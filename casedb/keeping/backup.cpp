@@ -196,7 +196,7 @@ void end_sessions(const fs::path& file) {
   database.run("PRAGMA secure_delete = ON");
   const auto tables = tables_of(database);
   Transaction transaction(database);
-  for (const char* sessions : {"login_session", "web_session"})
+  for (const char* sessions : {"login_session", "web_session", "password_link"})
     if (std::ranges::find(tables, sessions) != tables.end()) database.run(std::string("DELETE FROM ") + sessions);
   transaction.commit();
 }

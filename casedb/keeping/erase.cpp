@@ -30,7 +30,7 @@ constexpr PersonColumn kRemoved[] = {
     {"person_fact", "person_id"},     {"person_level", "person_id"},    {"programme_director", "person_id"},
     {"replay_watched", "person_id"},  {"study_enrolment", "person_id"}, {"study_researcher", "person_id"},
     {"simulated_truth", "person_id"}, {"desk_response", "person_id"},   {"workshop_participant", "person_id"},
-    {"web_session", "person_id"},
+    {"web_session", "person_id"},     {"password_link", "person_id"},
 };
 constexpr PersonColumn kKept[] = {
     {"audit", "person_id"},

@@ -269,14 +269,14 @@ void add_details(Html& html, const AttemptView& attempt) {
 }  // namespace
 
 std::string attempt_pictures_page(const Visitor& visitor, const AttemptView& attempt,
-                                  const base::Result<std::string>& pictures) {
+                                  const base::Result<std::string>& markup) {
   Html html;
   html.raw("<p class=\"back\"><a href=\"/attempts/").text(attempt.row.attempt_id);
   html.raw("\">The attempt</a></p>\n<h1>Pictures of an attempt</h1>\n<p class=\"sub\">")
       .name(attempt.operator_label);
   html.raw(" · ").name(attempt.row.case_title).raw(" · ").text(told_text(attempt.row.started_us)).raw("</p>\n");
-  if (!pictures) {
-    html.raw("<div class=\"message\"><p>There are no pictures: ").text(pictures.error().text).raw(".</p></div>\n");
+  if (!markup) {
+    html.raw("<div class=\"message\"><p>There are no pictures: ").text(markup.error().text).raw(".</p></div>\n");
     return page("Pictures of an attempt", visitor, html);
   }
   html.raw(
@@ -284,7 +284,7 @@ std::string attempt_pictures_page(const Visitor& visitor, const AttemptView& att
       "was "
       "recorded.</p>\n");
   html.raw(kKeptMarkup);
-  return with_kept_markup(page("Pictures of an attempt", visitor, html), *pictures);
+  return with_kept_markup(page("Pictures of an attempt", visitor, html), *markup);
 }
 
 std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, const cases::Recording* recording) {

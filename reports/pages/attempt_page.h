@@ -2,7 +2,9 @@
 // with.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "reports/pages/page.h"
 #include "reports/words/attempt_words.h"
@@ -12,9 +14,15 @@ namespace seldinger::reports {
 
 // `recording` may be null: then there is no chart over time, and the page says so.
 std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, const cases::Recording* recording);
-// What was on the screen at its telling moments: markup that is kept (reports/sheets/moments_sheet.h), or why there
-// is none.
+
+// What was on the screen at the telling moments of an attempt: markup, and the pictures beside it, which it names
+// by number from 1: `pictures.png?n=1`.
+struct DrawnPictures {
+  std::string markup;
+  std::vector<std::vector<std::byte>> pngs;
+};
+// `markup`: of the drawn pictures, or why there are none.
 std::string attempt_pictures_page(const Visitor& visitor, const AttemptView& attempt,
-                                  const base::Result<std::string>& pictures);
+                                  const base::Result<std::string>& markup);
 
 }  // namespace seldinger::reports

@@ -13,11 +13,18 @@
 
 namespace seldinger::reports {
 
+// Small enough that a page with a dozen of them is soon there.
+struct SmallPicture {
+  std::vector<std::byte> png;
+  int width_px = 0, height_px = 0;
+};
+
 struct SheetMoment {
   double t_s = 0.0;
   std::string words;           // why it is shown
   std::vector<std::byte> png;  // may be empty: nothing was on the screen
   bool live = true, tip_seen = false, target_seen = false;
+  SmallPicture small{};  // of a page whose pictures lie beside it
 };
 
 struct SheetSegment {

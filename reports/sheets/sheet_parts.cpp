@@ -14,9 +14,19 @@ std::string mm(double value) {
   return value < 0.0 ? "-" + text : text;
 }
 
-Html picture(const std::vector<std::byte>& png, const std::string& alt) {
+Html picture(const std::vector<std::byte>& png, const std::string& alt, const Placed& placed) {
   Html html;
-  html.raw("<img alt=\"").text(alt).raw("\" src=\"data:image/png;base64,").text(base64(png)).raw("\">");
+  html.raw("<img alt=\"").text(alt).raw("\" src=\"").text(placed(png)).raw("\">");
+  return html;
+}
+
+// A small one that opens the whole one; browsers fetch it when it comes near the screen.
+Html small_picture(const SheetMoment& moment, const std::string& alt, const Placed& placed) {
+  Html html;
+  html.raw("<a href=\"").text(placed(moment.png)).raw("\"><img loading=\"lazy\" width=\"");
+  html.text(std::to_string(moment.small.width_px)).raw("\" height=\"");
+  html.text(std::to_string(moment.small.height_px)).raw("\" alt=\"").text(alt).raw("\" src=\"");
+  html.text(placed(moment.small.png)).raw("\"></a>");
   return html;
 }
 
@@ -89,11 +99,11 @@ void add_line(Html& html, const char* kind, const glm::dvec2& from, const glm::d
   html.raw("\" y1=\"").text(mm(from.y)).raw("\" x2=\"").text(mm(to.x)).raw("\" y2=\"").text(mm(to.y)).raw("\"/>\n");
 }
 
-void add_plane(Html& html, const SheetPlane& plane, const Course& course) {
+void add_plane(Html& html, const SheetPlane& plane, const Course& course, const Placed& placed) {
   const double side = plane.side_mm;
   html.raw("<figure><svg role=\"img\" aria-label=\"").text(plane.name).raw(": the needle’s path\" viewBox=\"0 0 ");
   html.text(mm(side)).raw(" ").text(mm(side)).raw("\">\n<image width=\"").text(mm(side)).raw("\" height=\"");
-  html.text(mm(side)).raw("\" href=\"data:image/png;base64,").text(base64(plane.png)).raw("\"/>\n");
+  html.text(mm(side)).raw("\" href=\"").text(placed(plane.png)).raw("\"/>\n");
   add_segments(html, "skin", plane.skin, "skin");
   for (const SheetOutline& outline : plane.structures)
     add_segments(html, "structure " + (outline.rule == "target" ? "target-rule" : outline.rule), outline.segments,
@@ -124,7 +134,11 @@ void add_plane(Html& html, const SheetPlane& plane, const Course& course) {
 
 }  // namespace
 
-Html sheet_strip(const ReplaySheet& sheet) {
+std::string in_the_page(const std::vector<std::byte>& png) {
+  return "data:image/png;base64," + base64(png);
+}
+
+Html sheet_strip(const ReplaySheet& sheet, const Placed& placed) {
   Html html;
   html.raw(
       "<section aria-labelledby=\"strip\"><h2 id=\"strip\">What was on the screen</h2>\n<ol class=\"strip\">\n");
@@ -135,7 +149,8 @@ Html sheet_strip(const ReplaySheet& sheet) {
     if (moment.png.empty())
       html.raw("<div class=\"empty\"></div>");
     else
-      html.add(picture(moment.png, words));
+      html.add(moment.small.png.empty() ? picture(moment.png, words, placed)
+                                        : small_picture(moment, words, placed));
     html.raw("<p><strong>").text(std::to_string(++number)).raw("</strong> · ").text(words);
     if (!sheet.blinded) add_seen(html, sheet, moment);
     html.raw("</p></li>\n");
@@ -153,7 +168,7 @@ Html sheet_film(const ReplaySheet& sheet) {
     if (moment.png.empty())
       html.raw("<div class=\"empty\"></div>");
     else
-      html.add(picture(moment.png, number_text(moment.t_s, 1) + " s"));
+      html.add(picture(moment.png, number_text(moment.t_s, 1) + " s", in_the_page));
     html.raw("</li>\n");
   }
   html.raw(
@@ -167,7 +182,7 @@ Html sheet_film(const ReplaySheet& sheet) {
   return html;
 }
 
-Html sheet_planes(const ReplaySheet& sheet) {
+Html sheet_planes(const ReplaySheet& sheet, const Placed& placed) {
   Html html;
   if (sheet.planes.empty()) return html;
   html.raw(
@@ -176,7 +191,7 @@ Html sheet_planes(const ReplaySheet& sheet) {
   bool planned = false;
   std::vector<std::string> names;
   for (const SheetPlane& plane : sheet.planes) {
-    add_plane(html, plane, sheet.course);
+    add_plane(html, plane, sheet.course, placed);
     planned = planned || plane.planned_entry_mm.has_value();
     for (const SheetOutline& outline : plane.structures)
       if (std::find(names.begin(), names.end(), outline.name) == names.end()) names.push_back(outline.name);

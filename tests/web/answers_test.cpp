@@ -31,7 +31,7 @@ TEST(Answers, SixtyAtOnceMakeOneAndNeverTwoAtATime) {
         --inside;
         return Answers::Made{"text", true};
       });
-      EXPECT_EQ(text.value(), "text");
+      EXPECT_EQ(text.value()->text, "text");
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(made.load(), 2);
@@ -44,13 +44,13 @@ TEST(Answers, WhatHasChangedMeanwhileAndWhatIsRefusedIsNotKept) {
   const Answers::Make changing = [&]() -> base::Result<Answers::Made> {
     return Answers::Made{std::to_string(++made), false};
   };
-  EXPECT_EQ(answers.get("a", changing).value(), "1");
-  EXPECT_EQ(answers.get("a", changing).value(), "2");
+  EXPECT_EQ(answers.get("a", changing).value()->text, "1");
+  EXPECT_EQ(answers.get("a", changing).value()->text, "2");
   const Answers::Make refusing = []() -> base::Result<Answers::Made> {
     return base::Error{"damaged", "is damaged"};
   };
   EXPECT_EQ(answers.get("a", refusing).error().code, "damaged");
-  EXPECT_EQ(answers.get("a", changing).value(), "3");
+  EXPECT_EQ(answers.get("a", changing).value()->text, "3");
 }
 
 TEST(Answers, TheLongestUnusedMakeRoom) {
@@ -58,12 +58,12 @@ TEST(Answers, TheLongestUnusedMakeRoom) {
   std::atomic<int> made = 0;
   const std::string large(1000, 'x');
   for (const char* key : {"a", "b", "a", "c", "d", "a"})
-    EXPECT_EQ(answers.get(key, making(large, made)).value(), large);
+    EXPECT_EQ(answers.get(key, making(large, made)).value()->text, large);
   EXPECT_EQ(made.load(), 4) << "a was used in between and kept";
   EXPECT_TRUE(answers.get("b", making(large, made)).has_value());
   EXPECT_EQ(made.load(), 5) << "b had gone";
   const std::string too_large(5000, 'x');
-  EXPECT_EQ(answers.get("e", making(too_large, made)).value(), too_large);
+  EXPECT_EQ(answers.get("e", making(too_large, made)).value()->text, too_large);
 }
 
 }  // namespace

@@ -70,6 +70,20 @@ class FakeQuestions final : public Questions {
     const std::lock_guard lock(mutex);
     return accounts;
   }
+  base::Result<casedb::PasswordLink> invite_user(const std::string& admin_id, const std::string& name,
+                                                 casedb::Role role) override {
+    done.push_back(admin_id + " invites " + name + " as " + casedb::name_of(role));
+    return casedb::PasswordLink{std::string(64, 'b'), 1'772'373'909'123'456};
+  }
+  base::Result<casedb::PasswordLink> make_password_link(const std::string& admin_id,
+                                                        const std::string& name) override {
+    done.push_back(admin_id + " makes a link for " + name);
+    return casedb::PasswordLink{std::string(64, 'b'), 1'772'373'909'123'456};
+  }
+  std::optional<casedb::Account> account_of_password_link(const std::string&) override { return std::nullopt; }
+  base::Result<void> set_password_by_link(const std::string&, const std::string&, const std::string&) override {
+    return base::Error{"no_link", "this link does not hold any more; ask for another"};
+  }
   std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) override {
     std::unordered_map<std::string, casedb::Relation> all;
     if (const auto known = relations.find(reader_id); known != relations.end()) all = known->second;
@@ -230,10 +244,10 @@ class FakeQuestions final : public Questions {
     return casedb::CaseCheck{{{"lesion_present", false, "there is no lesion"}}, {"hit"}, case_mark("")};
   }
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow&) override { return picture; }
-  base::Result<std::string> pictures_of(const std::string& attempt_id) override {
+  base::Result<reports::DrawnPictures> pictures_of(const std::string& attempt_id) override {
     ++pictures_made;
     if (pictures_refusal) return *pictures_refusal;
-    return "<p class=\"pictures\">" + attempt_id + "</p>";
+    return reports::DrawnPictures{"<p class=\"pictures\">" + attempt_id + "</p>", {picture, {std::byte{2}}}};
   }
   base::Result<cases::Mesh> load_skin(const std::string&) override { return skin; }
   base::Result<cases::Recording> load_recording(const std::string&) override {

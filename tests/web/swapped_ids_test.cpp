@@ -210,7 +210,9 @@ TEST_F(SwappedIds, TenThousandOfThemLeakNothing) {
   FakeSite world;
   const HeavyWork work{
       [](casedb::Library& library, const std::string& case_id) { return fixtures::sound_check(library, case_id); },
-      [](casedb::Library&, const std::string&) { return base::Result<std::string>("<figure></figure>"); }};
+      [](casedb::Library&, const std::string&) {
+        return base::Result<reports::DrawnPictures>({"<figure></figure>", {{std::byte{1}}}});
+      }};
   const auto questions = std::move(questions_of(std::move(casedb::Library::open(folder_).value()), work).value());
   Site site{*questions, world.surroundings, routes()};
   const std::vector<std::string> all = ids();

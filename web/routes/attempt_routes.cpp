@@ -121,6 +121,19 @@ bool is_png(const std::vector<std::byte>& bytes) {
   return bytes.size() > kSignature.size() && std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) == 0;
 }
 
+Response png_response(const Site& site, const Call& call, const std::vector<std::byte>& png) {
+  Response response{.content_type = "image/png", .policy = Policy::picture};
+  response.body.resize(png.size());
+  std::memcpy(response.body.data(), png.data(), png.size());
+  const std::string tag = "\"" + site.surroundings.sha256_hex(response.body) + "\"";
+  if (call.request.header("if-none-match") == tag) {
+    response.status = 304;
+    response.body.clear();
+  }
+  response.headers.emplace_back("ETag", tag);
+  return response;
+}
+
 Response show_picture(Site& site, const Call& call) {
   const auto row = visible_attempt(site, call);
   if (!row.has_value() || row->picture_sha256.empty()) return refusal(404, call.reader);
@@ -129,10 +142,7 @@ Response show_picture(Site& site, const Call& call) {
     const std::string code = picture.has_value() ? "not_png" : picture.error().code;
     return site.fault(500, call.reader, code + ": a stored picture cannot be shown");
   }
-  Response response{.content_type = "image/png"};
-  response.body.resize(picture->size());
-  std::memcpy(response.body.data(), picture->data(), picture->size());
-  return response;
+  return png_response(site, call, *picture);
 }
 
 // The same, where the reader may also see it pose by pose.
@@ -162,26 +172,43 @@ Response show_skin(Site& site, const Call& call) {
     return Answers::Made{skin_json(*mesh)};
   });
   if (!skin) return site.fault(500, call.reader, skin.error().code + ": a skin cannot be shown");
-  return {.content_type = "application/json", .body = std::move(*skin)};
+  return {.content_type = "application/json", .body = (*skin)->text};
+}
+
+base::Result<std::shared_ptr<const Answers::Made>> drawn_pictures(Site& site, const std::string& attempt_id) {
+  return site.answers.get("pictures " + attempt_id, [&]() -> base::Result<Answers::Made> {
+    auto drawn = site.questions.pictures_of(attempt_id);
+    if (!drawn) return drawn.error();
+    return Answers::Made{std::move(drawn->markup), true, std::move(drawn->pngs)};
+  });
 }
 
 Response show_pictures(Site& site, const Call& call) {
   auto row = replayable_attempt(site, call);
   if (!row.has_value()) return refusal(404, call.reader);
-  const auto pictures = site.answers.get("pictures " + row->attempt_id, [&]() -> base::Result<Answers::Made> {
-    auto made = site.questions.pictures_of(row->attempt_id);
-    if (!made) return made.error();
-    return Answers::Made{std::move(*made)};
-  });
+  const auto drawn = drawn_pictures(site, row->attempt_id);
+  const base::Result<std::string> markup = drawn ? base::Result<std::string>((*drawn)->text) : drawn.error();
   const casedb::Account& account = call.reader->account;
   const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
   const std::string label =
       operator_label(account.role, site.questions.relations_of(account.person_id), *row, account_of);
   withhold(account.role, *row);
-  Response response =
-      html_response(200, reports::attempt_pictures_page(call.reader->visitor(), {*row, label}, pictures));
-  response.policy = Policy::answering;  // pictures that stand in the page
-  return response;
+  return html_response(200, reports::attempt_pictures_page(call.reader->visitor(), {*row, label}, markup));
+}
+
+// One of them, as the page names it.
+Response show_drawn_picture(Site& site, const Call& call) {
+  const auto row = replayable_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  const auto asked = form_fields(call.request.query);
+  std::size_t number = 1;
+  if (const auto n = asked ? asked->find("n") : std::map<std::string, std::string>::iterator{};
+      asked && n != asked->end() &&
+      std::from_chars(n->second.data(), n->second.data() + n->second.size(), number).ec != std::errc())
+    return refusal(404, call.reader);
+  const auto drawn = drawn_pictures(site, row->attempt_id);
+  if (!drawn || number < 1 || number > (*drawn)->pictures.size()) return refusal(404, call.reader);
+  return png_response(site, call, (*drawn)->pictures[number - 1]);
 }
 
 Response show_replay_script(Site&, const Call&) {
@@ -215,6 +242,8 @@ constexpr Route kAttemptRoutes[] = {
     {"GET", "/attempts/{attempt_id}/pictures", Action::see_recording, true, kRecordingSeen,
      "what was on the screen at its telling moments and where the needle was, drawn when first asked",
      show_pictures, Lane::heavy},
+    {"GET", "/attempts/{attempt_id}/pictures.png", Action::see_recording, false, kRecordingSeen,
+     "one of those pictures; ?n=N", show_drawn_picture, Lane::heavy},
     {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
      "its metrics as `score` prints them", show_metrics},
     {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,

@@ -56,7 +56,7 @@ Response show_checks(Site& site, const Call& call) {
     return Answers::Made{checks_json(case_id, *check), check->content_mark == mark};
   });
   if (!checks) return site.fault(500, call.reader, checks.error().code + ": a case cannot be checked");
-  return {.content_type = "application/json", .body = std::move(*checks)};
+  return {.content_type = "application/json", .body = (*checks)->text};
 }
 
 Response list_metrics(Site&, const Call& call) {

@@ -15,6 +15,7 @@ std::span<const Route> attempt_routes();
 std::span<const Route> case_routes();
 std::span<const Route> learner_routes();
 std::span<const Route> people_routes();
+std::span<const Route> account_routes();
 std::span<const Route> study_routes();
 std::span<const Route> me_routes();
 std::span<const Route> server_routes();

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <functional>
 #include <list>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "sim/base/result.h"
 
@@ -16,21 +18,23 @@ class Answers {
  public:
   struct Made {
     std::string text;
-    bool keep = true;  // false: what it is made from has changed meanwhile
+    bool keep = true;                                // false: what it is made from has changed meanwhile
+    std::vector<std::vector<std::byte>> pictures{};  // that the text names
   };
   using Make = std::function<base::Result<Made>()>;
 
-  explicit Answers(std::size_t most_bytes = std::size_t{8} << 20) : most_bytes_(most_bytes) {}
+  explicit Answers(std::size_t most_bytes = std::size_t{24} << 20) : most_bytes_(most_bytes) {}
   // What is kept under this key, else what `make` makes: it is called once, however many ask at the same time. Its
   // refusal is answered and not kept. The longest unused make room.
-  base::Result<std::string> get(const std::string& key, const Make& make);
+  base::Result<std::shared_ptr<const Made>> get(const std::string& key, const Make& make);
 
  private:
   struct Kept {
-    std::string key, text;
-    std::size_t bytes() const noexcept { return sizeof(Kept) + key.size() + text.size(); }
+    std::string key;
+    std::shared_ptr<const Made> made;
+    std::size_t bytes() const noexcept;
   };
-  const std::string* find(const std::string& key);  // under mutex_
+  std::shared_ptr<const Made> find(const std::string& key);  // null: it is not kept
 
   const std::size_t most_bytes_;
   std::mutex making_, mutex_;

@@ -18,6 +18,8 @@ std::string_view status_text(int status) {
       return "No Content";
     case 303:
       return "See Other";
+    case 304:
+      return "Not Modified";
     case 400:
       return "Bad Request";
     case 401:
@@ -124,12 +126,12 @@ void wipe(Response& response) noexcept {
 
 const std::vector<std::pair<std::string_view, std::string_view>>& security_headers(Policy policy) {
   using Headers = std::vector<std::pair<std::string_view, std::string_view>>;
-  static const auto with = [](std::string_view content) -> Headers {
+  static const auto with = [](std::string_view content, std::string_view cache = "no-store") -> Headers {
     return {{"Content-Security-Policy", content},
             {"X-Content-Type-Options", "nosniff"},
             {"X-Frame-Options", "DENY"},
             {"Referrer-Policy", "no-referrer"},
-            {"Cache-Control", "no-store"},
+            {"Cache-Control", cache},
             {"Cross-Origin-Opener-Policy", "same-origin"},
             {"Cross-Origin-Resource-Policy", "same-origin"}};
   };
@@ -146,7 +148,10 @@ const std::vector<std::pair<std::string_view, std::string_view>>& security_heade
   static const Headers replay = with(
       "default-src 'none'; style-src 'self'; img-src 'self'; script-src 'self'; connect-src 'self'; "
       "form-action 'self'; base-uri 'none'; frame-ancestors 'none'");
+  static const Headers picture = with("default-src 'none'; frame-ancestors 'none'", "private, no-cache");
   switch (policy) {
+    case Policy::picture:
+      return picture;
     case Policy::list:
       return list;
     case Policy::replay:
@@ -174,7 +179,7 @@ std::string bytes_of(const Response& response, bool with_body) {
   for (const auto& [name, value] : security_headers(response.policy)) add(name, value);
   for (const auto& [name, value] : response.headers) add(name, value);
   if (!response.body.empty()) add("Content-Type", response.content_type);
-  add("Content-Length", std::to_string(response.body.size()));
+  if (response.status != 304) add("Content-Length", std::to_string(response.body.size()));  // else of what is kept
   add("Connection", "close");
   out += "\r\n";
   if (with_body) out += response.body;

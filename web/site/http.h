@@ -23,8 +23,9 @@ struct Request {
 
 // What a page may load and run: nothing but the style sheet and pictures of this server; where it is answered or
 // rated also the scripts, of which one sends what is typed, and pictures that stand in the page itself; a list's
-// script runs and fetches nothing.
-enum class Policy { page, list, replay, answering };
+// script runs and fetches nothing. A picture may be kept by the browser that got it, which asks each time whether
+// it is still the same and still theirs to see; all else is kept nowhere.
+enum class Policy { page, list, replay, answering, picture };
 
 struct Response {
   int status = 200;
@@ -43,7 +44,7 @@ void wipe(Request& request) noexcept;
 void wipe(std::map<std::string, std::string>& form) noexcept;
 void wipe(Response& response) noexcept;
 
-// The headers every response carries: content security policy, no sniffing, no referrer, no framing, no caching.
+// The headers every response carries: content security policy, no sniffing, no referrer, no framing, caching.
 const std::vector<std::pair<std::string_view, std::string_view>>& security_headers(Policy policy = Policy::page);
 
 // The response as bytes, closing the connection. A line break in a header value is a programmer's mistake.

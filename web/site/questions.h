@@ -17,6 +17,7 @@
 #include "casedb/keeping/erase.h"
 #include "casedb/keeping/health.h"
 #include "casedb/people/cohorts.h"
+#include "casedb/people/password_links.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
 #include "casedb/people/told_cells.h"
@@ -24,6 +25,7 @@
 #include "casedb/questionnaires/responses.h"
 #include "casedb/ratings/rating_rounds.h"
 #include "casedb/workshops/workshops.h"
+#include "reports/pages/attempt_page.h"
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/me_page.h"
 #include "reports/pages/people/audit_page.h"
@@ -64,6 +66,15 @@ class Questions {
   virtual void keep_sessions(int port, const casedb::WebSessionChanges& changes) = 0;
   virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
   virtual std::vector<casedb::Account> list_accounts() = 0;
+
+  // One-time links to set a password (casedb/people/password_links.h), by an admin and by whoever has one.
+  virtual base::Result<casedb::PasswordLink> invite_user(const std::string& admin_id, const std::string& name,
+                                                         casedb::Role role) = 0;
+  virtual base::Result<casedb::PasswordLink> make_password_link(const std::string& admin_id,
+                                                                const std::string& name) = 0;
+  virtual std::optional<casedb::Account> account_of_password_link(const std::string& secret) = 0;
+  virtual base::Result<void> set_password_by_link(const std::string& secret, const std::string& person_id,
+                                                  const std::string& password) = 0;
 
   // What everybody is to the reader; who is missing is nothing to them.
   virtual std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) = 0;
@@ -141,9 +152,9 @@ class Questions {
   virtual std::vector<assessment::StepResult> list_steps(
       const std::string& attempt_id) = 0;  // in order; may be none
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
-  // Markup of what was on the screen at the telling moments. Takes seconds: case and attempt are run again.
+  // What was on the screen at the telling moments. Takes seconds: case and attempt are run again.
   // `not_drawn` where the server has nobody who draws.
-  virtual base::Result<std::string> pictures_of(const std::string& attempt_id) = 0;
+  virtual base::Result<reports::DrawnPictures> pictures_of(const std::string& attempt_id) = 0;
   virtual base::Result<cases::Mesh> load_skin(const std::string& case_id) = 0;
   virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
   virtual casedb::Health health() = 0;  // as it was a second ago at most

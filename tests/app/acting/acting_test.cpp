@@ -208,6 +208,8 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"curriculum remove", {curriculum_}, Action::remove_draft_curriculum},
       {"user add", {"new", "--role", "trainee"}, Action::manage_accounts},
       {"user passwd", {"trainee"}, Action::set_password, {}, true},
+      {"user invite", {"invited", "--role", "trainee"}, Action::manage_accounts},
+      {"user reset", {"trainee"}, Action::manage_accounts},
       {"user level", {"trainee", "--level", "student"}, Action::manage_accounts},
       {"user role", {"trainee", "--role", "mentor"}, Action::manage_accounts},
       {"user disable", {"trainee"}, Action::manage_accounts},

@@ -6,6 +6,7 @@
 
 #include "app/replay/body_planes.h"
 #include "app/replay/canvas.h"
+#include "app/replay/png.h"
 #include "assessment/score.h"
 #include "session/attempt/replayed_attempt.h"
 #include "session/guidance/guidance.h"
@@ -29,6 +30,16 @@ cases::Case ball(cases::Modality modality) {
 std::array<int, 3> pixel(const Canvas& canvas, int x, int y) {
   const auto at = static_cast<std::size_t>(3 * (y * canvas.width_px() + x));
   return {canvas.rgb()[at], canvas.rgb()[at + 1], canvas.rgb()[at + 2]};
+}
+
+TEST(Png, InFewGreysTheEndsStayAndSpeckleWeighsLess) {
+  std::vector<unsigned char> ends = {0, 255, 7, 9}, speckle;
+  unsigned state = 1;
+  for (int i = 0; i < 64 * 64; ++i)
+    speckle.push_back(static_cast<unsigned char>((state = state * 1664525U + 1) >> 24));
+  EXPECT_LT(2 * png_in_greys(speckle, 64, 64, 16).size(), 5 * png_from_grey(speckle, 64, 64).size() / 4);
+  const std::vector<unsigned char> nearest = {0, 255, 0, 17};
+  EXPECT_EQ(png_in_greys(ends, 2, 2, 16), png_in_greys(nearest, 2, 2, 16));
 }
 
 TEST(Canvas, DrawsWithinItsEdges) {

@@ -13,6 +13,7 @@
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/login_session.h"
+#include "casedb/people/password_links.h"
 #include "casedb/people/people.h"
 #include "casedb/people/web_sessions.h"
 #include "tests/casedb/library_samples.h"
@@ -139,6 +140,7 @@ TEST_F(DamageTest, AnErasedPersonsDamageGoesToo) {
     }
     ASSERT_TRUE(set_level(library, "zoe", Level::consultant));
     static_cast<void>(begin_login_session(library, log_in(library, "zoe", "a long password").value()));
+    ASSERT_TRUE(make_password_link(library, "zoe").has_value());
     keep_web_sessions(library, 8080, {{{std::string(64, 'a'), zoe_, "mark", 1, 2, now_us() + 1'000'000'000}}, {}});
   }
   ASSERT_EQ(found(), none_);
@@ -148,11 +150,11 @@ TEST_F(DamageTest, AnErasedPersonsDamageGoesToo) {
                              "programme_director SET from_us = from_us - 1", "person_fact SET answer = 'right'",
                              "replay_watched SET watched_us = watched_us - 1", "person_level SET level = 'student'",
                              "account SET role = 'admin'", "login_session SET ends_us = ends_us + 1",
-                             "web_session SET ends_us = ends_us + 1"})
+                             "web_session SET ends_us = ends_us + 1", "password_link SET ends_us = ends_us + 1"})
     sql += std::string("UPDATE ") + change + of_zoe;
   change_unseen(sql);
   const auto told = found();
-  ASSERT_EQ(told.size(), 9U);
+  ASSERT_EQ(told.size(), 10U);
   for (const std::string& text : told) EXPECT_EQ(text.find("Radiology"), std::string::npos) << text;
   {
     Library library = open_library(folder_);
@@ -262,7 +264,9 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
   }
   {
     Sqlite old(folder_ / kDatabaseFile);
-    old.run("DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes");
+    old.run(
+        "DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes; DROP INDEX "
+        "audit_of_everybodys_records");
     old.run("ALTER TABLE training_case DROP COLUMN sight_law");
     old.run("ALTER TABLE lesion DROP COLUMN lesion_kind");
     for (const char* later :
@@ -272,6 +276,7 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
           "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
       old.run(later);  // as schema 20 has no simulated people
     for (const char* later : {"asked_event",
+                              "password_link",
                               "web_session",
                               "cut",
                               "rating",

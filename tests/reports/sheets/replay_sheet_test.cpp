@@ -5,6 +5,7 @@
 
 #include "reports/charts/timeline.h"
 #include "reports/markup/base64.h"
+#include "reports/sheets/moments_sheet.h"
 #include "tests/reports/sample_attempt.h"
 
 namespace seldinger::reports {
@@ -88,6 +89,25 @@ TEST(ReplaySheet, NeedsNothingBesideItAndRunsNothing) {
     for (std::size_t at = page.find(name); at != page.npos; at = page.find(name, at + 1), ++sources)
       EXPECT_EQ(page.substr(at + name.size(), picture.size()), picture);
   EXPECT_GT(sources, 0);
+}
+
+// Before, the dashboard's page held its pictures: 2.5 MB before anything was to be seen.
+TEST(MomentsSheet, NamesThePicturesThatLieBesideIt) {
+  ReplaySheet sheet = sample_sheet();
+  for (SheetMoment& moment : sheet.moments)
+    if (!moment.png.empty()) moment.small = {{std::byte{9}, moment.png.front()}, 160, 120};
+  const DrawnPictures drawn = moments_sheet(sheet);
+  const std::vector<std::vector<std::byte>> pngs = {{std::byte{7}},
+                                                    {std::byte{9}, std::byte{7}},
+                                                    {std::byte{8}},
+                                                    {std::byte{9}, std::byte{8}},
+                                                    sheet.planes[0].png};
+  EXPECT_EQ(drawn.pngs, pngs);
+  EXPECT_EQ(drawn.markup.find("data:"), std::string::npos);
+  EXPECT_EQ(count(drawn.markup, "pictures.png?n="), pngs.size());
+  for (const char* part : {"<a href=\"pictures.png?n=1\"><img loading=\"lazy\" width=\"160\" height=\"120\"",
+                           "src=\"pictures.png?n=2\"></a>", "href=\"pictures.png?n=5\"/>"})
+    EXPECT_EQ(count(drawn.markup, part), 1U) << part;
 }
 
 // Before, the names of steps opened nothing, and the dots of their lane had no legend.
