@@ -124,7 +124,8 @@ std::string json_of_samples(const std::vector<PointSample>& samples) {
   for (const PointSample& sample : samples) {
     Json one = {{"lps_mm", point(sample.lps_mm)},
                 {"hu_nearest", maybe(sample.hu_nearest)},
-                {"hu_trilinear", maybe(sample.hu_trilinear)}};
+                {"hu_trilinear", maybe(sample.hu_trilinear)},
+                {"tissue", maybe(sample.tissue)}};
     if (sample.label) one["label"] = *sample.label;
     list.push_back(one);
   }

@@ -18,7 +18,8 @@ namespace seldinger::app {
 struct PointSample {
   glm::dvec3 lps_mm{0.0};
   std::optional<double> hu_nearest, hu_trilinear;
-  std::optional<std::string> label;  // of cases whose tissues are known
+  std::optional<std::string> tissue;  // class; nothing outside the volume
+  std::optional<std::string> label;   // of cases whose tissues are known
 };
 
 // What scoring attempts again has found. A difference: a value that is stored under the same version.

@@ -8,6 +8,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 using casedb::text;
 
+Json tissue_json(const volume::TissueTold& told) {
+  Json share = Json::object();
+  for (std::size_t at = 0; at < told.share.size(); ++at)
+    if (told.share[at] > 0.0) share[volume::about(static_cast<volume::TissueClass>(at)).name] = told.share[at];
+  return {{"contrast_phase", base::name_of(volume::kContrastPhaseNames, told.contrast.phase)},
+          {"brightest_hu", casedb::maybe(told.contrast.brightest_hu)},
+          {"share_of_body", share},
+          {"doubts", told.doubts}};
+}
+
 }  // namespace
 
 std::string json_of_structure(const std::string& structure_id) {
@@ -29,7 +39,8 @@ std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& 
       {{"case_id", case_id}, {"holds", check.holds()}, {"checks", list}, {"rule_may_name", check.rule_may_name}});
 }
 
-std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& needs) {
+std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& needs,
+                          const volume::TissueTold& tissue) {
   Json held = Json::array(), sources = Json::array();
   for (const session::CaseNeed& one : needs.held) held.push_back({{"what", one.what}, {"bytes", one.bytes}});
   for (const session::MotionSource& one : needs.sources)
@@ -42,7 +53,8 @@ std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& 
                  {"most", session::kMostMotionSources},
                  {"bytes", needs.displacement_bytes},
                  {"there_ns", needs.there_ns},
-                 {"back_ns", needs.back_ns}}}});
+                 {"back_ns", needs.back_ns}}},
+               {"tissue", tissue_json(tissue)}});
 }
 
 std::string json_of_rehearsal(const std::string& case_id, const session::Rehearsal& rehearsal) {

@@ -1,8 +1,9 @@
-// case explain: what a case's scene holds, what moves its tissue, and what that costs.
+// case explain: what a case's CT shows, what its scene holds, what moves its tissue, and what that costs.
 #include <cstdio>
 
 #include "app/acting/acting.h"
 #include "app/cases/case_answers_json.h"
+#include "app/cases/tissue_text.h"
 #include "app/cli/command.h"
 #include "casedb/cases/authoring.h"
 #include "session/case/case_build.h"
@@ -24,10 +25,16 @@ int run_case_explain(const Arguments& arguments) {
   const auto scene = session::build_case(*library, *row, target, picture, session::needs_of(row->modality));
   if (!scene) return refuse(scene.error());
   const session::CaseNeeds needs = session::needs_of_case(*scene);
+  const auto volume = casedb::load_volume(*library, *row);
+  if (!volume) return refuse(volume.error());
+  const auto classes = casedb::load_classes(*library, *row);
+  if (!classes) return refuse(classes.error());
+  const volume::TissueTold tissue = volume::tell_tissue(*volume, *classes);
   if (arguments.has("--json")) {
-    std::fputs(json_of_needs(case_id, needs).c_str(), stdout);
+    std::fputs(json_of_needs(case_id, needs, tissue).c_str(), stdout);
     return kDone;
   }
+  std::fputs(tissue_text(tissue).c_str(), stdout);
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
   if (needs.displacement_bytes == 0) {
     std::puts("moving tissue    none: no source, nothing is asked");
@@ -49,7 +56,9 @@ Command case_explain_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kLibraryJson,
-          .summary = "Lists what a case's scene holds in memory, what can move its tissue, and what that costs.",
+          .summary =
+              "Lists what a case's CT shows, what its scene holds in memory, what can move its tissue, and what "
+              "that costs.",
           .run = &run_case_explain};
 }
 

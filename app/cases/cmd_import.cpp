@@ -6,6 +6,7 @@
 #include "app/attempts/answers_json.h"
 #include "app/cases/import_case.h"
 #include "app/cases/privacy_text.h"
+#include "app/cases/tissue_text.h"
 #include "app/cli/command.h"
 #include "app/cli/library_place.h"
 #include "app/cli/words.h"
@@ -115,6 +116,9 @@ int run_import(const Arguments& arguments) {
   for (const base::Problem& warning : row->warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   std::fputs(privacy_text(*row).c_str(), stdout);
+  const auto classes = casedb::load_classes(*library, *row);
+  if (!classes) return refuse(classes.error());
+  std::fputs(tissue_text(volume::tell_tissue(imported->volume, *classes)).c_str(), stdout);
   return kDone;
 }
 
@@ -122,7 +126,7 @@ int run_sample(const Arguments& arguments) {
   arguments.required("--lps");
   std::vector<PointSample> samples;
   for (const std::string& text : arguments.all("--lps")) {
-    samples.push_back({point_of("--lps", text), {}, {}, {}});
+    samples.push_back({point_of("--lps", text), {}, {}, {}, {}});
   }
   auto library = open_library(arguments);
   if (!library) return refuse(library.error());
@@ -136,16 +140,19 @@ int run_sample(const Arguments& arguments) {
     if (!loaded) return refuse(loaded.error());
     labels = std::move(*loaded);
   }
+  const auto classes = casedb::load_classes(*library, *row);
+  if (!classes) return refuse(classes.error());
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(*volume);
   for (PointSample& sample : samples) {
     const glm::dvec3 index(voxel_from_lps * glm::dvec4(sample.lps_mm, 1.0));
     if (const auto hu = volume::sample_nearest(*volume, index)) sample.hu_nearest = *hu;
     sample.hu_trilinear = volume::sample_trilinear(*volume, index);
-    if (labels && sample.hu_nearest) {
-      const glm::ivec3 nearest =
-          glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), volume->size_voxels - 1);
-      sample.label = labels->names[labels->label[volume->index(nearest.x, nearest.y, nearest.z)]];
-    }
+    if (!sample.hu_nearest) continue;
+    const glm::ivec3 nearest =
+        glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), volume->size_voxels - 1);
+    const std::size_t at = volume->index(nearest.x, nearest.y, nearest.z);
+    sample.tissue = volume::about((*classes)[at]).name;
+    if (labels) sample.label = labels->names[labels->label[at]];
   }
   if (arguments.has("--json")) {
     std::fputs(json_of_samples(samples).c_str(), stdout);
@@ -154,8 +161,8 @@ int run_sample(const Arguments& arguments) {
   for (const PointSample& sample : samples) {
     std::printf("%.6g,%.6g,%.6g: ", sample.lps_mm.x, sample.lps_mm.y, sample.lps_mm.z);
     if (sample.hu_nearest)
-      std::printf("nearest %.0f HU, trilinear %.2f HU%s%s\n", *sample.hu_nearest, *sample.hu_trilinear,
-                  sample.label ? ", " : "", sample.label ? sample.label->c_str() : "");
+      std::printf("nearest %.0f HU, trilinear %.2f HU, %s%s%s\n", *sample.hu_nearest, *sample.hu_trilinear,
+                  sample.tissue->c_str(), sample.label ? ", " : "", sample.label ? sample.label->c_str() : "");
     else
       std::printf("outside the volume\n");
   }
@@ -220,7 +227,7 @@ Command sample_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kSampleOptions,
-          .summary = "Prints the HU at points of a case.",
+          .summary = "Prints the HU at points of a case, and which tissue is there.",
           .run = &run_sample};
 }
 

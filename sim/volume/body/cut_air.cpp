@@ -14,11 +14,13 @@ constexpr int kLungAboveHu = -930;         // as decision 0012 tells lung from g
 constexpr double kRimMm = 2.0;             // of a piece, left out when its density is asked
 constexpr double kLeastLungMl = 2.0;       // of what is left: less says nothing
 constexpr double kRoomTissueShare = 0.35;  // of the line between a run's ends, from which on it is the room's
+constexpr double kRoomOuterShare = 0.5;    // of a piece beyond that line: it lies along the body, not in it
 constexpr double kClearVote = 3.0;         // against lung
-constexpr double kAllDense = 0.9;       // of a lung that needs no vote: with some of the room's air it is less, …
-constexpr double kLungMeanHu = -900.0;  // … and foam, 0.05 g/cm³ and less, is lighter
-constexpr int kSidesOfTheRoom = 3;      // of the field's box, touched by one run: no lung or bowel is so wide
-constexpr double kTogether = 0.3;       // of the smaller of two pieces lies beside the other
+constexpr double kAllDense = 0.9;          // of a sure lung: with some of the room's air it is less, …
+constexpr double kLungMeanHu = -900.0;     // … and foam, 0.05 g/cm³ and less, is lighter
+constexpr double kSureVote = 20.0;  // against a sure lung: a mattress that lends coarse voxels some of its HU
+constexpr int kSidesOfTheRoom = 3;  // of the field's box, touched by one run: no lung or bowel is so wide
+constexpr double kTogether = 0.3;   // of the smaller of two pieces lies beside the other
 constexpr double kBesideBodyShare =
     0.5;  // of a piece's border with tissue: else it lies between a couch and the edge
 
@@ -26,13 +28,13 @@ constexpr std::int32_t kTissue = -1, kPadding = -2, kUnseen = 0;
 
 // Air of one slice that is joined and reaches the edge.
 struct EdgePiece {
-  std::uint32_t parent = 0;                                     // of those that vote together
-  double voxels = 0.0, inner = 0.0, dense = 0.0, sum_hu = 0.0;  // dense, sum_hu: of inner ones
-  double room_votes = 0.0, inside_votes = 0.0;                  // edge voxels
-  double by_tissue = 0.0, by_body = 0.0;                        // voxel faces
+  std::uint32_t parent = 0;                                         // of those that vote together
+  double voxels = 0.0, inner = 0.0, dense = 0.0, sum_hu = 0.0;      // dense, sum_hu: of inner ones
+  double room_votes = 0.0, corner_votes = 0.0, inside_votes = 0.0;  // edge voxels
+  double by_tissue = 0.0, by_body = 0.0;                            // voxel faces
   void add(const EdgePiece& other) {
     voxels += other.voxels, inner += other.inner, dense += other.dense, sum_hu += other.sum_hu;
-    room_votes += other.room_votes, inside_votes += other.inside_votes;
+    room_votes += other.room_votes, inside_votes += other.inside_votes, corner_votes += other.corner_votes;
     by_tissue += other.by_tissue, by_body += other.by_body;
   }
 };
@@ -93,6 +95,8 @@ class EdgeAir {
         mean_x += x, mean_y += y, field += 1.0;
         if (on_edge(x, y)) edge_.emplace_back(x, y);
       }
+    first_ = pieces_.size();
+    places_.clear();
     for (const glm::ivec2& p : edge_)
       if (map_[at(p.x, p.y)] == kUnseen) grow(p);
     low_ = high_ = edge_.empty() ? glm::ivec2(0) : edge_.front();
@@ -115,10 +119,13 @@ class EdgeAir {
     EdgePiece& piece = pieces_.emplace_back();
     piece.parent = static_cast<std::uint32_t>(id);
     map_[at(from.x, from.y)] = id;
+    begins_.resize(pieces_.size() - first_);
+    begins_.back() = places_.size();
     open_.assign(1, from);
     while (!open_.empty()) {
       const glm::ivec2 p = open_.back();
       open_.pop_back();
+      places_.push_back(p);
       piece.voxels += 1.0;
       if (far_from_tissue(p)) {
         piece.inner += 1.0;
@@ -169,11 +176,12 @@ class EdgeAir {
         touched[0] |= p.x == low_.x, touched[1] |= p.x == high_.x;
         touched[2] |= p.y == low_.y, touched[3] |= p.y == high_.y;
       }
-      const bool room = std::count(touched.begin(), touched.end(), true) >= kSidesOfTheRoom ||
-                        tissue_share(a, b) >= kRoomTissueShare;
+      const auto sides = std::count(touched.begin(), touched.end(), true);
+      const bool room = sides >= kSidesOfTheRoom || tissue_share(a, b) >= kRoomTissueShare ||
+                        outer_share(a, b) >= kRoomOuterShare;
       for (std::size_t i = begin; i < step; ++i) {
         EdgePiece& piece = piece_at(edge_[(first + i) % count]);
-        (room ? piece.room_votes : piece.inside_votes) += 1.0;
+        (room ? piece.room_votes : sides >= 2 ? piece.corner_votes : piece.inside_votes) += 1.0;
       }
     }
   }
@@ -193,6 +201,17 @@ class EdgeAir {
       other += in_field(x, y) && map_[at(x, y)] != own ? 1.0 : 0.0;
     }
     return other / (steps + 1);
+  }
+
+  // Of the piece that a and b are of: what lies between the straight line from a to b and the edge.
+  double outer_share(const glm::ivec2& a, const glm::ivec2& b) const {
+    const std::size_t which = static_cast<std::size_t>(map_[at(a.x, a.y)]) - first_, begin = begins_[which],
+                      end = which + 1 < begins_.size() ? begins_[which + 1] : places_.size();
+    const glm::ivec2 way = b - a;
+    const auto outer = std::count_if(
+        places_.begin() + static_cast<std::ptrdiff_t>(begin), places_.begin() + static_cast<std::ptrdiff_t>(end),
+        [&](const glm::ivec2& p) { return way.x * (p.y - a.y) - way.y * (p.x - a.x) < 0; });
+    return static_cast<double>(outer) / static_cast<double>(end - begin);
   }
 
   void join(const std::vector<std::int32_t>& below) {
@@ -231,7 +250,10 @@ class EdgeAir {
       const EdgePiece& sum = sums[root(piece)];
       const bool lung = sum.inner >= least_inner && sum.dense * 3.0 > sum.inner * 2.0;
       const bool sure = lung && sum.dense >= kAllDense * sum.inner && sum.sum_hu >= kLungMeanHu * sum.inner;
-      const bool votes = sure || sum.inside_votes * (lung ? kClearVote : 1.0) > sum.room_votes;
+      // Lung fills corners of a field; what is as thin as gas there is the room's beside a round body.
+      const double against = sure ? kSureVote : kClearVote;
+      const bool votes = lung ? (sum.inside_votes + sum.corner_votes) * against > sum.room_votes
+                              : sum.inside_votes > sum.room_votes + sum.corner_votes;
       inside[piece] = votes && sum.by_body >= kBesideBodyShare * sum.by_tissue ? 1 : 0;
     }
     return inside;
@@ -243,7 +265,10 @@ class EdgeAir {
   int slice_ = 0;
   std::vector<std::int32_t> map_;  // of the slice: kTissue, kPadding, a piece's number, or kUnseen
   std::vector<glm::ivec2> edge_, open_;
-  glm::ivec2 low_{0}, high_{0};  // of the edge
+  std::size_t first_ = 0;            // piece of this slice
+  std::vector<glm::ivec2> places_;   // of its pieces, one after the other, …
+  std::vector<std::size_t> begins_;  // … each from here
+  glm::ivec2 low_{0}, high_{0};      // of the edge
   std::vector<EdgePiece> pieces_;
 };
 

@@ -57,6 +57,38 @@ TEST(CutSkin, WhereItEndsIsTold) {
   EXPECT_EQ(told("circle"), "the CT ends within the patient (feet, head, edge of what was reconstructed)");
 }
 
+// A back that reaches both sides of the field, and lies on what is as dense as lung in coarse voxels.
+TEST(CutSkin, OfABackOnAMattressIsKept) {
+  for (const double slope : {0.0, 0.2}) {
+    volume::Volume made = volume::make_volume({90, 90, 20}, {2, 2, 3}, glm::dmat3(1.0), glm::dvec3(0.0));
+    const auto back_at = [&](int i) { return 60.0 + slope * i; };
+    std::size_t body_voxels = 0;
+    for (int k = 0; k < 20; ++k)
+      for (int j = 0; j < 90; ++j)
+        for (int i = 0; i < 90; ++i) {
+          const bool body = j >= 20 && j < back_at(i);
+          body_voxels += body ? 1 : 0;
+          made.hu[made.index(i, j, k)] = body ? 40 : j < 20 ? -1000 : -880;
+        }
+    const std::vector<std::uint8_t> body = volume::body_mask(made);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(body.begin(), body.end(), 1)), body_voxels) << slope;
+  }
+}
+
+// A belly cut at front and left: air beside it is no gas of a bowel, and gas that the front cuts is.
+TEST(CutSkin, OfAPocketAtACornerIsKept) {
+  volume::Volume made = volume::make_volume({90, 60, 20}, {2, 2, 3}, glm::dmat3(1.0), glm::dvec3(0.0));
+  const auto air = [](int i, int j) { return i < 20 && j < 15; };
+  const auto gas = [](int i, int j) { return std::hypot(i - 50.5, j + 4.5) < 16.0; };
+  for (int k = 0; k < 20; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 90; ++i) made.hu[made.index(i, j, k)] = air(i, j) || gas(i, j) ? -1000 : 40;
+  const std::vector<std::uint8_t> body = volume::body_mask(made);
+  for (int k = 0; k < 20; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 90; ++i) ASSERT_EQ(body[made.index(i, j, k)], air(i, j) ? 0 : 1) << i << " " << j;
+}
+
 TEST(CutSkin, WithinTheBodyThereIsNone) {
   volume::Crop crop;
   crop.name = "core";

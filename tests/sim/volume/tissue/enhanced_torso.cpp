@@ -70,6 +70,20 @@ std::string name_of(TorsoPhase phase) {
   return {};
 }
 
+ContrastPhase told_as(TorsoPhase phase) {
+  switch (phase) {
+    case TorsoPhase::none:
+      return ContrastPhase::none;
+    case TorsoPhase::arterial:
+      return ContrastPhase::early;
+    case TorsoPhase::portal:
+      return ContrastPhase::venous;
+    case TorsoPhase::excretory:
+      return ContrastPhase::late;
+  }
+  return {};
+}
+
 EnhancedTorso enhanced_torso(const TorsoOptions& options) {
   const EnhancedTorso& fine = fine_torso(options.phase, options.metal);
   const glm::ivec3 by = options.spacing_mm, n = fine.volume.size_voxels / by;

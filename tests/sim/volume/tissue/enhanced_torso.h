@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/contrast.h"
 #include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::volume {
@@ -15,6 +16,7 @@ enum class TorsoPhase { none, arterial, portal, excretory };
 inline constexpr std::array kTorsoPhases{TorsoPhase::none, TorsoPhase::arterial, TorsoPhase::portal,
                                          TorsoPhase::excretory};
 std::string name_of(TorsoPhase phase);
+ContrastPhase told_as(TorsoPhase phase);  // what is told of its CT
 
 struct EnhancedTorso {
   Volume volume;

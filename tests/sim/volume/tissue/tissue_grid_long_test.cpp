@@ -16,7 +16,8 @@ TEST(TissueGridLong, BoneIsFoundWhateverTheVoxelsThePhaseTheNoiseAndMetal) {
         for (const double noise_sd_hu : {6.0, 12.0, 20.0}) {
           const EnhancedTorso torso = enhanced_torso(
               {.phase = phase, .spacing_mm = spacing_mm, .noise_sd_hu = noise_sd_hu, .metal = metal});
-          const TorsoScore scored = score(torso, find_tissue(torso.volume));
+          const Tissue found = find_tissue(torso.volume);
+          const TorsoScore scored = score(torso, found);
           const std::string where = name_of(phase) + ", " + std::to_string(spacing_mm.x) + " x " +
                                     std::to_string(spacing_mm.z) + " mm, noise " + std::to_string(noise_sd_hu) +
                                     (metal ? ", metal" : "");
@@ -25,6 +26,7 @@ TEST(TissueGridLong, BoneIsFoundWhateverTheVoxelsThePhaseTheNoiseAndMetal) {
           EXPECT_GE(scored.bone_dice, spacing_mm.z <= 2 ? 0.9 : 0.8) << where;
           EXPECT_GE(scored.rib_as_bone, 0.85) << where;
           EXPECT_LE(scored.vessel_as_bone, 0.02) << where;
+          EXPECT_EQ(contrast_of(torso.volume, found.classes).phase, told_as(phase)) << where;
         }
 }
 

@@ -23,6 +23,7 @@ TEST(TissueGrid, BoneIsFoundInEveryPhaseAndVesselsAreNone) {
       EXPECT_GE(scored.rib_as_bone, spacing_mm.x <= 3 ? 0.95 : 0.85) << where;
       EXPECT_LE(scored.vessel_as_bone, 0.02) << where;
       EXPECT_LE(scored.ducts_as_bone, 0.05) << where;
+      EXPECT_EQ(contrast_of(torso.volume, found.classes).phase, told_as(phase)) << where;
     }
 }
 

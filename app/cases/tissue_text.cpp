@@ -1,0 +1,48 @@
+#include "app/cases/tissue_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace seldinger::app {
+namespace {
+
+const char* words_of(volume::ContrastPhase phase) {
+  switch (phase) {
+    case volume::ContrastPhase::none:
+      return "none";
+    case volume::ContrastPhase::early:
+      return "early (arterial) phase";
+    case volume::ContrastPhase::venous:
+      return "venous phase";
+    case volume::ContrastPhase::late:
+      return "late (excretory) phase";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string tissue_text(const volume::TissueTold& told) {
+  std::string text = std::string("contrast ") + words_of(told.contrast.phase);
+  if (told.contrast.phase != volume::ContrastPhase::none)
+    text += ": 30 ml of blood and organs are at " + std::to_string(*told.contrast.brightest_hu) + " HU or more";
+  std::array<std::size_t, volume::kTissueClasses> order{};
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return told.share[a] > told.share[b]; });
+  text += "\ntissue  ";
+  for (const std::size_t at : order) {
+    if (!(told.share[at] > 0.0)) break;
+    const long percent = std::lround(100.0 * told.share[at]);
+    text += std::string(at == order.front() ? " " : ", ") +
+            volume::about(static_cast<volume::TissueClass>(at)).name + " " +
+            (percent > 0 ? std::to_string(percent) : std::string("< 1")) + " %";
+  }
+  text += "\n";
+  for (const std::string& doubt : told.doubts) text += "doubtful: " + doubt + "\n";
+  return text;
+}
+
+}  // namespace seldinger::app

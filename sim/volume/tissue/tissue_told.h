@@ -1,0 +1,21 @@
+// What the classes of a CT are taken together, and what of them is doubtful: told when it is imported.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sim/volume/tissue/contrast.h"
+
+namespace seldinger::volume {
+
+struct TissueTold {
+  Contrast contrast;
+  std::array<double, kTissueClasses> share{};  // by class, of the body: air has none
+  std::vector<std::string> doubts;             // sentences without a full stop, for a person
+};
+
+// Classes: as many as voxels (CHECK).
+TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& classes);
+
+}  // namespace seldinger::volume
