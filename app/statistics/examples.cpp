@@ -43,6 +43,7 @@ constexpr ProcedureExample kExamples[] = {
     {"log_rank", COURSE "--value minutes --x reached --group experience"},
     {"rmst", COURSE "--value minutes --x reached --group experience --options order=novice:expert,tau=12"},
     {"tobit", COURSE "--value accuracy --group site --options limit=100"},
+    {"imputed", COURSE "--value after --x before --group experience --options order=novice:expert"},
     {"bootstrap", COURSE "--value contacts --group experience --options order=novice:expert,statistic=median"},
     {"icc", COURSE "--value rater_a,rater_b,rater_c"},
     {"kappa", COURSE "--value grade_a,grade_b --options weights=quadratic"},

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "assessment/grading/standard.h"
 #include "assessment/registry.h"
 #include "assessment/statistics/groups/groups_procedures.h"
+#include "assessment/statistics/relations/imputation.h"
 #include "sim/base/check.h"
 
 namespace seldinger::assessment::study {
@@ -291,6 +293,53 @@ void add_tipping(const Plan& plan, Compared& compared) {
        std::move(there), shift});
 }
 
+// The values of the outcome that absent people are imputed from; empty: the plan names none.
+std::map<std::string, double> impute_from(const StudyResult& result, const Compared& compared) {
+  std::map<std::string, double> by_name;
+  for (const auto* outcomes : {&result.primary, &result.secondary})
+    for (const Compared& other : *outcomes) {
+      if (other.outcome.name != compared.outcome.impute_from || other.hand != compared.hand) continue;
+      for (const PersonValue& one : other.people)
+        if (one.standing == Standing::value) by_name[one.name] = one.value;
+    }
+  return by_name;
+}
+
+void add_imputed(const Plan& plan, const StudyResult& result, Compared& compared) {
+  const Outcome& outcome = compared.outcome;
+  if (plan.imputations == 0 || outcome.test != Test::welch || compared.first.absent + compared.second.absent == 0)
+    return;
+  const std::map<std::string, double> from = impute_from(result, compared);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  statistics::DataTable table;
+  table.values.push_back({outcome.metric, {}});
+  // Both groups one after the other, as the draws are.
+  for (const std::string& group : {outcome.first, outcome.second})
+    for (const PersonValue& one : compared.people) {
+      if (one.group != group) continue;
+      const bool is_there = one.standing != Standing::absent;
+      const std::optional<double> value = one.standing == Standing::value ? one.value : outcome.failure_value;
+      if (is_there && !value) continue;
+      table.values.front().values.push_back(is_there ? *value : nan);
+      table.group.push_back(group);
+      const auto found = from.find(one.name);
+      table.x.push_back(found == from.end() ? nan : found->second);
+      ++table.rows;
+    }
+  if (outcome.impute_from.empty()) table.x.clear();
+  const statistics::ProcedureOptions options(
+      {{"order", outcome.first + ":" + outcome.second}, {"draws", std::to_string(plan.imputations)}});
+  statistics::ImputedComparison made = statistics::imputed_comparison(table, options);
+  compared.sensitivity.push_back(
+      {OtherRule::imputed,
+       "absent: drawn " + std::to_string(plan.imputations) + " times from what others of their group " +
+           (outcome.impute_from.empty() ? "have" : "with such “" + outcome.impute_from + "” have") +
+           ", pooled by Rubin’s rules",
+       std::move(made.answer),
+       {},
+       std::move(made.draws)});
+}
+
 // Where the plan parts by hands, one for each; else one.
 std::vector<Compared> compare_all(const Plan& plan, const std::vector<Outcome>& outcomes,
                                   const std::vector<StudyPerson>& people) {
@@ -389,6 +438,7 @@ void add_sensitivity(const Plan& plan, const std::vector<StudyPerson>& people, S
     if (!one.refused.empty()) continue;
     add_per_protocol(plan, missed, one);
     add_tipping(plan, one);
+    add_imputed(plan, result, one);
   }
 }
 

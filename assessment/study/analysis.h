@@ -50,17 +50,20 @@ struct GroupSum {
 };
 
 // The same comparison under another rule for what is missing, or of those alone who kept to the plan.
-enum class OtherRule { present, best_in_first, worst_in_first, per_protocol, tipping };
+enum class OtherRule { present, best_in_first, worst_in_first, per_protocol, tipping, imputed };
 inline constexpr auto kOtherRuleNames = base::names<OtherRule>({{OtherRule::present, "present"},
                                                                 {OtherRule::best_in_first, "best_in_first"},
                                                                 {OtherRule::worst_in_first, "worst_in_first"},
                                                                 {OtherRule::per_protocol, "per_protocol"},
-                                                                {OtherRule::tipping, "tipping"}});
+                                                                {OtherRule::tipping, "tipping"},
+                                                                {OtherRule::imputed, "imputed"}});
 struct Sensitivity {
   OtherRule kind = OtherRule::present;
   std::string rule;  // in words
   statistics::Answer answer;
   std::optional<double> shift{};  // of tipping, in the metric's unit
+  // Of imputed: by draw, values of those of `people` who are absent, the first group's before the second's.
+  std::vector<std::vector<double>> draws{};
 };
 
 struct Compared {
@@ -88,7 +91,7 @@ StudyResult analyse(const Plan& plan, const std::vector<StudyPerson>& people);
 // significant primary outcome with absent people the tipping point. There the absent stand at their group's median,
 // those of the better group shifted for the worse and those of the other for the better, by the least shift at
 // which p is no longer below alpha (a twentieth of the values' range at a time, then halved), or by the whole
-// range.
+// range. Last, where the plan asks for it, absent people's values by multiple imputation.
 void add_sensitivity(const Plan& plan, const std::vector<StudyPerson>& people, StudyResult& result);
 
 // What each person has on an outcome, without regard to groups.

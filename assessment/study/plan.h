@@ -62,6 +62,8 @@ struct Outcome {
   // What a person who failed counts as in a difference of means, in the metric's unit; a test of order ranks
   // failures last and needs none.
   std::optional<double> failure_value;
+  // Another outcome of the plan, by name, that goes with this one: what absent people are imputed from.
+  std::string impute_from{};
 };
 
 enum class People { real, simulated };  // whose attempts: of people, or what simulated operators did in their names
@@ -101,12 +103,14 @@ struct Plan {
   std::string stopping_rule;
   Absent absent = Absent::left_out;
   std::string missing_why;
+  int imputations = 0;  // draws of absent people's values, of primary outcomes by `welch`; 0: none are drawn
   std::vector<Exclusion> exclusions;
   Hands hands = Hands::one;
   double alpha = 0.05;  // of all primary outcomes together
 };
 
 inline constexpr std::size_t kMostPrimary = 3, kMostGroups = 8;
+inline constexpr int kLeastImputations = 10, kMostImputations = 500;
 
 // `bad_study_plan`, each problem a finding that names its place ("primary[0].compare"). Of form alone: what was
 // frozen is read whatever became of its metrics.

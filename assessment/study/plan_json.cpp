@@ -104,6 +104,7 @@ Outcome read_outcome(const Json& json, const std::string& where, const Plan& pla
                                                                           : Direction::higher_is_better;
   outcome.smallest_worthwhile = reader.number("smallest_worthwhile", {}, 1e-9, 1e9);
   if (reader.has("failure_value")) outcome.failure_value = reader.number("failure_value", {}, -1e9, 1e9);
+  if (reader.has("impute_from")) outcome.impute_from = reader.name("impute_from");
   const auto compared = reader.list("compare", 2, 2);
   for (const auto& [name, place] : compared) {
     const std::string text = name->is_string() ? name->get<std::string>() : std::string();
@@ -204,6 +205,26 @@ void read_outcomes(PlanReader& reader, Plan& plan, std::vector<base::Problem>& w
       if (!names.insert(one.name).second) reader.bad("primary", "and secondary name two outcomes alike");
 }
 
+// What absent people are imputed from, and whether there is anything to impute.
+void check_imputation(PlanReader& reader, const Plan& plan) {
+  bool of_means = false;
+  for (const Outcome& one : plan.primary) of_means = of_means || one.test == Test::welch;
+  if (plan.imputations != 0 && plan.imputations < kLeastImputations)
+    reader.bad("missing.imputations", "are fewer than 10");
+  if (plan.imputations > 0 && !of_means)
+    reader.bad("missing.imputations", "have no place: no primary outcome has the test welch");
+  if (plan.imputations > 0 && plan.absent == Absent::failure)
+    reader.bad("missing.imputations", "have no place: who is absent counts as a failure");
+  for (const Outcome& one : plan.primary) {
+    if (one.impute_from.empty()) continue;
+    const auto is_named = [&](const Outcome& other) { return other.name == one.impute_from; };
+    const bool known = std::any_of(plan.primary.begin(), plan.primary.end(), is_named) ||
+                       std::any_of(plan.secondary.begin(), plan.secondary.end(), is_named);
+    if (!known || one.impute_from == one.name) reader.bad("primary", "impute_from names no other outcome");
+    if (plan.imputations == 0) reader.bad("primary", "impute_from has no place: missing.imputations are 0");
+  }
+}
+
 void read_plan(const Json& json, Plan& plan, std::vector<base::Problem>& wrong) {
   PlanReader reader(json, "", wrong);
   plan.title = reader.words("title", true, 200);
@@ -234,6 +255,8 @@ void read_plan(const Json& json, Plan& plan, std::vector<base::Problem>& wrong) 
   PlanReader missing(reader.has("missing") ? reader.at("missing") : none, "missing", wrong);
   plan.absent = missing.choice<kAbsentNames>("absent");
   plan.missing_why = missing.words("why", true);
+  plan.imputations = missing.whole("imputations", 0, 0, kMostImputations);
+  check_imputation(reader, plan);
 }
 
 // A whole number as one, so that 1 and 1.0 are one plan.
@@ -253,6 +276,7 @@ Json json_of(const Outcome& one) {
                {"better", one.better == Direction::lower_is_better ? "lower" : "higher"},
                {"smallest_worthwhile", shortest(one.smallest_worthwhile)}};
   if (one.failure_value) json["failure_value"] = shortest(*one.failure_value);
+  if (!one.impute_from.empty()) json["impute_from"] = one.impute_from;
   return json;
 }
 
@@ -285,6 +309,7 @@ std::string canonical_json(const Plan& plan) {
                {"alpha", shortest(plan.alpha)},
                {"stopping", {{"per_group", plan.per_group}, {"rule", plan.stopping_rule}}},
                {"missing", {{"absent", base::name_of(kAbsentNames, plan.absent)}, {"why", plan.missing_why}}}};
+  if (plan.imputations > 0) json["missing"]["imputations"] = plan.imputations;
   for (const char* list : {"argument", "visits", "primary", "secondary", "exclusions"}) json[list] = Json::array();
   for (const Claim& one : plan.argument)
     json["argument"].push_back({{"inference", base::name_of(kInferenceNames, one.inference)},

@@ -64,8 +64,9 @@ std::vector<RatedRound> rated_rounds(Library& library, const std::string& study_
     if (!round.rated || round.study_id != study_id) continue;
     const auto ratings = list_ratings(library, round.code);
     if (!ratings) continue;  // damage, which the library's check tells
-    RatedRound one{ratings->form.form.title, round.title, round.version,
-                   assessment::rating::agreement_of(scores_of(*ratings, ""), ratings->each)};
+    RatedRound one{ratings->form.form.title, round.title,  round.version, {},
+                   scores_of(*ratings, ""),  ratings->each};
+    one.agreement = assessment::rating::agreement_of(one.scores, one.each);
     if (one.agreement.ratings > 0) all.push_back(std::move(one));
   }
   std::reverse(all.begin(), all.end());

@@ -24,6 +24,8 @@ struct RatedRound {
   std::string form_title, round_title;
   int version = 1;
   assessment::rating::Agreement agreement;
+  std::vector<assessment::rating::Rating> scores{};  // what agreement is of
+  std::size_t each = 0;                              // ratings that a replay gets
 };
 // Of the study, the oldest first; those in which nothing was sent are left out.
 std::vector<RatedRound> rated_rounds(Library& library, const std::string& study_id);

@@ -112,7 +112,9 @@ void add_curve(Html& html, const LearnerItem& item, const assessment::Criterion&
   if (!answer.estimable()) {
     say_none(html, answer);
   } else if (!learned) {
-    html.raw("<p>No learning is seen in these values.</p>\n");
+    const auto& notes = answer.notes;
+    const bool sudden = std::find(notes.begin(), notes.end(), statistics::kTooSudden) != notes.end();
+    html.raw("<p>").text(sudden ? statistics::kTooSudden : "No learning is seen in these values.").raw("</p>\n");
   } else {
     html.raw("<p>Levels off at ").text(assessment::plain_value(*further(answer, "plateau"), info.unit));
     const auto low = further(answer, "plateau_low"), high = further(answer, "plateau_high");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "assessment/statistics/complete_table.h"
 #include "assessment/statistics/reliability/alpha.h"
@@ -45,7 +46,8 @@ std::vector<FormReliability> reliability_of(const casedb::Responses& responses) 
     if (table.values.size() < 2) continue;
     const statistics::CompleteTable items = statistics::complete_table(table);
     all.push_back({form.title, responses.round.title, form.version, table.values.size(), scale.low(), scale.high(),
-                   statistics::alpha(items, {}), statistics::omega(items, {}, kResamples, kReliabilitySeed)});
+                   statistics::alpha(items, {}), statistics::omega(items, {}, kResamples, kReliabilitySeed),
+                   std::move(table)});
   }
   return all;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assessment/statistics/answer.h"
+#include "assessment/statistics/data_table.h"
 #include "casedb/questionnaires/responses.h"
 
 namespace seldinger::reports {
@@ -17,6 +18,7 @@ struct FormReliability {
   std::size_t items = 0;
   int low = 0, high = 0;  // of their scale
   assessment::statistics::Answer alpha, omega;
+  assessment::statistics::DataTable answers{};  // what they are of: a row a respondent, a column an item
 };
 
 // One for each scale of the round's form on which there are at least two items; each respondent once, without those

@@ -2,10 +2,12 @@
 #
 #   Rscript redo.R [FOLDER]
 #
-# people.csv holds what each person has on each outcome, outcomes.csv how the plan compares them, numbers.csv what the
-# report says. Each number that comes out otherwise is printed, then how many were redone and the largest difference;
-# the exit status is 1 where one differs. The p of a permutation test that drew its deals is redone with other deals,
-# and may differ by what chance makes of them.
+# people.csv holds what each person has on each outcome, outcomes.csv how the plan compares them, answers.csv what was
+# answered to questionnaires, ratings.csv what raters gave, rated.csv outcomes beside mean ratings, imputed.csv what was
+# drawn for absent people, numbers.csv what the report says. Each number that comes out otherwise is printed, then how
+# many were redone and the largest difference; the exit status is 1 where one differs. The p of a permutation test that
+# drew its deals and omega's interval, which is a bootstrap's, are redone with other draws, and may differ by what chance
+# makes of them.
 
 arguments <- commandArgs(trailingOnly = TRUE)
 folder <- if (length(arguments) > 0) arguments[1] else "."
@@ -13,13 +15,22 @@ table_of <- function(name)
   read.csv(file.path(folder, name), colClasses = "character", na.strings = "", encoding = "UTF-8", check.names = FALSE)
 people <- table_of("people.csv")
 outcomes <- table_of("outcomes.csv")
+answers <- table_of("answers.csv")
+ratings <- table_of("ratings.csv")
+rated <- table_of("rated.csv")
+imputed <- table_of("imputed.csv")
 numbers <- table_of("numbers.csv")
 for (name in c("value", "last_but_one", "last")) people[[name]] <- as.numeric(people[[name]])
 for (name in c("failure_value", "cut")) outcomes[[name]] <- as.numeric(outcomes[[name]])
 numbers$value <- as.numeric(numbers$value)
+answers$score <- as.numeric(answers$score)
+for (name in c("each", "replay", "rater", "score")) ratings[[name]] <- as.numeric(ratings[[name]])
+for (name in c("value", "rating")) rated[[name]] <- as.numeric(rated[[name]])
+for (name in c("draw", "place", "value")) imputed[[name]] <- as.numeric(imputed[[name]])
 alpha <- 0.05   # of "would have been found"
 power <- 0.8
 draws <- 10000  # of a permutation test whose deals are more
+resamples <- 1000  # of persons, for omega's interval
 
 # --- what stands in the place of those without a value ----------------------------------------------------------------
 stand_in <- function(stead, outcome, low, high) {
@@ -203,6 +214,91 @@ decisions <- function(scores, cut, reliability, higher) {
        false_pass = max(0, pnorm(truly) - rightly), false_fail = max(0, fail - rightly))
 }
 
+# --- absent people's values, drawn ------------------------------------------------------------------------------------
+# Rubin's rules with Barnard and Rubin's degrees of freedom (Biometrika 86, 1999).
+of_imputed <- function(own, outcome) {
+  own <- rbind(own[own$group == outcome$first, ], own[own$group == outcome$second, ])
+  absent <- which(own$standing == "absent")
+  own$value[own$standing %in% c("failure", "censored")] <- outcome$failure_value
+  drawn <- imputed[imputed$outcome == outcome$outcome, ]
+  by_draw <- lapply(split(drawn, drawn$draw), function(one) {
+    own$value[absent[one$place]] <- one$value
+    test <- t.test(own$value[own$group == outcome$first], own$value[own$group == outcome$second])
+    c(estimate = unname(test$estimate[1] - test$estimate[2]), variance = test$stderr^2, df = unname(test$parameter))
+  })
+  all <- do.call(rbind, by_draw)
+  m <- nrow(all)
+  within <- mean(all[, "variance"]); between <- var(all[, "estimate"]); total <- within + (1 + 1 / m) * between
+  lost <- (total - within) / total; complete <- mean(all[, "df"])
+  df <- 1 / (lost^2 / (m - 1) + (complete + 3) / ((complete + 1) * complete * (1 - lost)))
+  estimate <- mean(all[, "estimate"])
+  list(n = nrow(own), estimate = estimate, low = estimate - qt(0.975, df) * sqrt(total),
+       high = estimate + qt(0.975, df) * sqrt(total), p = 2 * pt(-abs(estimate) / sqrt(total), df))
+}
+
+# --- questionnaires, raters, ratings beside outcomes ------------------------------------------------------------------
+# One factor by maximum likelihood; a small factr, for factanal stops early.
+omega_of <- function(x) {
+  found <- tryCatch(factanal(x, 1, control = list(opt = list(factr = 1, pgtol = 0, maxit = 5000))), error = function(e) NULL)
+  if (is.null(found)) return(NA)
+  common <- sum(found$loadings)^2
+  common / (common + sum(found$uniquenesses))
+}
+
+of_scale <- function(own, asked) {
+  x <- tapply(own$score, list(own$respondent, own$item), identity)
+  x <- x[complete.cases(x), , drop = FALSE]
+  n <- nrow(x)
+  found <- list(respondents = n)
+  if (n < 2) return(found)
+  x <- x[, apply(x, 2, var) > 0, drop = FALSE]
+  k <- ncol(x)
+  if ("alpha" %in% asked) {
+    alpha <- k / (k - 1) * (1 - sum(apply(x, 2, var)) / var(rowSums(x)))
+    ends <- 1 - (1 - alpha) * qf(c(0.975, 0.025), n - 1, (n - 1) * (k - 1))  # Feldt
+    found <- c(found, list(alpha = alpha, alpha_low = ends[1], alpha_high = ends[2]))
+  }
+  if ("omega" %in% asked) found$omega <- omega_of(x)
+  if ("omega_low" %in% asked) {
+    set.seed(1)
+    logits <- qlogis(replicate(resamples, suppressWarnings(omega_of(x[sample.int(n, n, replace = TRUE), ]))))
+    wide <- qnorm(0.975) * sd(logits[is.finite(logits)])
+    found$omega_low <- plogis(qlogis(found$omega) - wide)
+    found$omega_high <- plogis(qlogis(found$omega) + wide)
+    # A standard deviation of so many draws is off by chance, here as in the report; five standard errors of that.
+    share <- 5 * sqrt(2 / (2 * resamples))
+    reach <- function(end, far) abs(plogis(qlogis(found$omega) + far * wide * (1 + share)) - end)
+    found$chance <- list(omega_low = reach(found$omega_low, -1), omega_high = reach(found$omega_high, 1))
+  }
+  found
+}
+
+# ICC(1) and ICC(1,k): the first ratings of each replay, raters in their order (Shrout and Fleiss 1979).
+of_round <- function(own) {
+  each <- own$each[1]
+  own <- own[order(own$replay, own$rater), ]
+  whole <- Filter(function(scores) length(scores) >= each, split(own$score, own$replay))
+  scores <- do.call(rbind, lapply(whole, function(one) one[seq_len(each)]))
+  found <- list(ratings = nrow(own))
+  if (is.null(scores) || nrow(scores) < 2 || each < 2) return(found)
+  n <- nrow(scores)
+  between <- each * var(rowMeans(scores)); within <- mean(apply(scores, 1, var))
+  f <- between / within
+  ends <- f / c(qf(0.975, n - 1, n * (each - 1)), qf(0.025, n - 1, n * (each - 1)))
+  one <- function(f) (f - 1) / (f + each - 1)
+  c(found, list(icc_one = one(f), icc_one_low = one(ends[1]), icc_one_high = one(ends[2]), icc_mean = 1 - 1 / f,
+                icc_mean_low = 1 - 1 / ends[1], icc_mean_high = 1 - 1 / ends[2]))
+}
+
+# Bonett and Wright's interval (2000).
+of_rated <- function(own) {
+  n <- nrow(own)
+  if (n < 2) return(list(rated_people = n))
+  rho <- suppressWarnings(cor(rank(own$value), rank(own$rating)))
+  ends <- tanh(atanh(rho) + c(-1, 1) * qnorm(0.975) * sqrt((1 + rho^2 / 2) / (n - 3)))
+  list(rated_people = n, rho = rho, rho_low = ends[1], rho_high = ends[2])
+}
+
 # --- all of it --------------------------------------------------------------------------------------------------------
 of_group <- function(own, group, which) {
   here <- own[own$group == group, ]
@@ -222,7 +318,8 @@ for (i in seq_len(nrow(outcomes))) {
     asked <- said$number[said$rule == rule]
     shift <- said$value[said$rule == rule & said$number == "shift"]
     found <- list(shift = shift)
-    if ("estimate" %in% asked) found <- c(found, compared(by_rule(rule, own, outcome, shift), outcome))
+    if (rule == "imputed") found <- c(found, of_imputed(own, outcome))
+    else if ("estimate" %in% asked) found <- c(found, compared(by_rule(rule, own, outcome, shift), outcome))
     if (rule == "plan") {
       found <- c(found, of_group(own, outcome$first, "first"), of_group(own, outcome$second, "second"))
       twice <- as.matrix(own[!is.na(own$last_but_one), c("last_but_one", "last")])
@@ -242,6 +339,15 @@ for (i in seq_len(nrow(outcomes))) {
     }
     redone[[paste(outcome$outcome, rule)]] <- found
   }
+}
+
+for (which in unique(numbers$outcome[numbers$rule %in% c("answers", "ratings", "rated")])) {
+  number <- strsplit(which, " ")[[1]]
+  said <- numbers[numbers$outcome == which, ]
+  redone[[paste(which, said$rule[1])]] <- switch(said$rule[1],
+    answers = of_scale(answers[answers$scale == number[2], ], said$number),
+    ratings = of_round(ratings[ratings$round == number[2], ]),
+    rated = of_rated(rated[rated$outcome == number[2] & rated$form == number[4], ]))
 }
 
 # Holm's step-down: what could not be tested counts in the family.
@@ -268,6 +374,10 @@ for (i in seq_len(nrow(numbers))) {
   if (by_chance) {
     p <- max(number$value, 2 / draws)
     allowed <- (if (number$number == "p_holm") length(primary) else 1) * 5 * sqrt(2 * p * (1 - min(p, 0.5)) / draws)
+  }
+  if (number$number %in% names(found$chance)) {
+    by_chance <- TRUE
+    allowed <- found$chance[[number$number]]
   }
   off <- if (is.null(here) || is.na(here)) Inf else abs(here - number$value)
   if (!by_chance) off <- off / max(1, abs(number$value))

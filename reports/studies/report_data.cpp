@@ -1,11 +1,14 @@
 #include "reports/studies/report_data.h"
 
+#include <cmath>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "assessment/statistics/relations/proportions.h"
 #include "reports/export/csv_line.h"
 #include "reports/studies/decision_numbers.h"
+#include "reports/studies/rated_outcome.h"
 #include "reports/studies/study_words.h"
 #include "sim/base/check.h"
 #include "sim/base/embedded.h"
@@ -76,19 +79,105 @@ std::string outcomes_table(const ValidityReport& report) {
   return text;
 }
 
+// Each scale's answers, and one row a respondent and item.
+std::string answers_table(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"scale", "respondent", "item", "score"}) line.text(name);
+  std::string text = line.take();
+  for (std::size_t scale = 0; scale < report.forms.size(); ++scale) {
+    const statistics::DataTable& of = report.forms[scale].answers;
+    for (std::size_t row = 0; row < of.rows; ++row)
+      for (const statistics::Column& item : of.values) {
+        const double score = item.values[row];
+        line.whole(std::uint64_t{scale + 1}).whole(std::uint64_t{row + 1}).text(item.name);
+        line.number(std::isnan(score) ? std::nullopt : std::optional(score));
+        text += line.take();
+      }
+  }
+  return text;
+}
+
+// Scores of each round without calibration and repeats; raters and replays by numbers in the order of their names.
+std::string ratings_table(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"round", "each", "replay", "rater", "score"}) line.text(name);
+  std::string text = line.take();
+  for (std::size_t round = 0; round < report.rated_rounds.size(); ++round) {
+    const casedb::RatedRound& of = report.rated_rounds[round];
+    std::map<std::string, std::uint64_t> replays, raters;
+    for (const assessment::rating::Rating& one : of.scores) {
+      replays[one.view] = 0;
+      raters[one.rater] = 0;
+    }
+    for (auto* numbers : {&replays, &raters}) {
+      std::uint64_t next = 0;
+      for (auto& [name, number] : *numbers) number = ++next;
+    }
+    for (const assessment::rating::Rating& one : of.scores) {
+      if (one.part != assessment::rating::Part::rated) continue;
+      line.whole(std::uint64_t{round + 1}).whole(std::uint64_t{of.each}).whole(replays[one.view]);
+      line.whole(raters[one.rater]).number(one.score);
+      text += line.take();
+    }
+  }
+  return text;
+}
+
+// Each primary outcome at whose case people were rated, form by form.
+template <typename Told>
+void each_rated(const ValidityReport& report, const Told& told) {
+  each_outcome(report, [&](std::size_t number, const study::Compared& one, bool primary) {
+    for (std::size_t form = 0; primary && form < report.ratings.size(); ++form)
+      if (report.ratings[form].case_id == one.outcome.case_id)
+        told(number, form + 1, with_ratings(one, report.ratings[form]));
+  });
+}
+
+std::string rated_table(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"outcome", "form", "value", "rating"}) line.text(name);
+  std::string text = line.take();
+  each_rated(report, [&](std::size_t number, std::size_t form, const statistics::DataTable& of) {
+    for (std::size_t row = 0; row < of.rows; ++row) {
+      line.whole(std::uint64_t{number}).whole(std::uint64_t{form});
+      line.number(of.values.front().values[row]).number(of.x[row]);
+      text += line.take();
+    }
+  });
+  return text;
+}
+
+// What was drawn for who is absent, in the order of people.csv, group by group.
+std::string imputed_table(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"outcome", "draw", "place", "value"}) line.text(name);
+  std::string text = line.take();
+  each_outcome(report, [&](std::size_t number, const study::Compared& one, bool) {
+    for (const study::Sensitivity& other : one.sensitivity)
+      for (std::size_t draw = 0; draw < other.draws.size(); ++draw)
+        for (std::size_t place = 0; place < other.draws[draw].size(); ++place) {
+          line.whole(std::uint64_t{number}).whole(std::uint64_t{draw + 1}).whole(std::uint64_t{place + 1});
+          line.number(other.draws[draw][place]);
+          text += line.take();
+        }
+  });
+  return text;
+}
+
 class Numbers {
  public:
   Numbers() {
     for (const char* name : {"outcome", "rule", "number", "value"}) line_.text(name);
     text_ = line_.take();
   }
-  void begin(std::size_t outcome, std::string_view rule) {
-    outcome_ = outcome;
+  // Of an outcome by its number, or of "scale 1", "round 1".
+  void begin(std::string of, std::string_view rule) {
+    of_ = std::move(of);
     rule_ = rule;
   }
   void add(const std::string& name, const std::optional<double>& value) {
     if (!value) return;
-    line_.whole(std::uint64_t{outcome_}).text(rule_).text(name).number(*value);
+    line_.text(of_).text(rule_).text(name).number(*value);
     text_ += line_.take();
   }
   void add(const std::string& name, const std::optional<statistics::Interval>& interval) {
@@ -101,8 +190,7 @@ class Numbers {
 
  private:
   CsvLine line_;
-  std::string text_, rule_;
-  std::size_t outcome_ = 0;
+  std::string text_, of_, rule_;
 };
 
 void add_group(Numbers& numbers, const std::string& which, const study::GroupSum& sum) {
@@ -146,10 +234,39 @@ void add_decision_numbers(Numbers& numbers, const ValidityReport& report, const 
   numbers.add("false_fail", further(decisions, "false_fail"));
 }
 
+void add_named(Numbers& numbers, const std::string& name, const statistics::Answer& answer) {
+  numbers.add(name, answer.estimate);
+  if (answer.estimate) numbers.add(name + "_", answer.ci95);
+}
+
+// Questionnaires' items, raters' scores, and outcomes beside ratings.
+void add_structure_numbers(Numbers& numbers, const ValidityReport& report) {
+  for (std::size_t i = 0; i < report.forms.size(); ++i) {
+    const FormReliability& one = report.forms[i];
+    numbers.begin("scale " + std::to_string(i + 1), "answers");
+    numbers.count("respondents", one.alpha.n);
+    add_named(numbers, "alpha", one.alpha);
+    add_named(numbers, "omega", one.omega);
+  }
+  for (std::size_t i = 0; i < report.rated_rounds.size(); ++i) {
+    const assessment::rating::Agreement& one = report.rated_rounds[i].agreement;
+    numbers.begin("round " + std::to_string(i + 1), "ratings");
+    numbers.count("ratings", one.ratings);
+    add_named(numbers, "icc_one", one.one);
+    add_named(numbers, "icc_mean", one.mean);
+  }
+  each_rated(report, [&](std::size_t number, std::size_t form, const statistics::DataTable& of) {
+    const statistics::Answer answer = rank_correlation(of);
+    numbers.begin("outcome " + std::to_string(number) + " form " + std::to_string(form), "rated");
+    numbers.count("rated_people", answer.n);
+    add_named(numbers, "rho", answer);
+  });
+}
+
 std::string numbers_table(const ValidityReport& report) {
   Numbers numbers;
   each_outcome(report, [&](std::size_t number, const study::Compared& one, bool primary) {
-    numbers.begin(number, "plan");
+    numbers.begin(std::to_string(number), "plan");
     add_group(numbers, "first", one.first);
     add_group(numbers, "second", one.second);
     if (primary) add_decision_numbers(numbers, report, one);
@@ -160,11 +277,12 @@ std::string numbers_table(const ValidityReport& report) {
     numbers.add("detectable", further(one.answer, "detectable_"));
     if (!primary) return;
     for (const study::Sensitivity& other : one.sensitivity) {
-      numbers.begin(number, base::name_of(study::kOtherRuleNames, other.kind));
+      numbers.begin(std::to_string(number), base::name_of(study::kOtherRuleNames, other.kind));
       add_effect_numbers(numbers, other.answer, true);
       numbers.add("shift", other.shift);
     }
   });
+  add_structure_numbers(numbers, report);
   return numbers.text();
 }
 
@@ -174,6 +292,10 @@ std::vector<DataFile> report_data(const ValidityReport& report) {
   CHECK(report.plan.frozen());
   return {{"people.csv", people_table(report)},
           {"outcomes.csv", outcomes_table(report)},
+          {"answers.csv", answers_table(report)},
+          {"ratings.csv", ratings_table(report)},
+          {"rated.csv", rated_table(report)},
+          {"imputed.csv", imputed_table(report)},
           {"numbers.csv", numbers_table(report)},
           {"redo.R", std::string(base::content_of(embedded::study_files(), "redo.R"))}};
 }

@@ -1,8 +1,8 @@
 #include <set>
 
 #include "assessment/registry.h"
-#include "assessment/statistics/relations/correlation.h"
 #include "reports/studies/outcome_table.h"
+#include "reports/studies/rated_outcome.h"
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
 #include "reports/words/metric_words.h"
@@ -51,26 +51,12 @@ Html response_panel(const ValidityReport& report) {
   return html.raw("</ul>\n</article>\n");
 }
 
-// The people of both groups who have a value and were rated at the outcome's case.
-assessment::statistics::Answer with_ratings(const study::Compared& outcome, const casedb::RatedPeople& rated) {
-  assessment::statistics::DataTable table;
-  table.values.emplace_back();
-  for (const study::PersonValue& person : outcome.people) {
-    const auto found = rated.mean.find(person.name);
-    if (person.standing != study::Standing::value || found == rated.mean.end()) continue;
-    table.values.front().values.push_back(person.value);
-    table.x.push_back(found->second);
-  }
-  table.rows = table.x.size();
-  return assessment::statistics::settled(assessment::statistics::spearman(table, {}));
-}
-
 Html ratings_panel(const ValidityReport& report) {
   Html rows;
   for (const study::Compared& one : report.result.primary)
     for (const casedb::RatedPeople& rated : report.ratings) {
       if (rated.case_id != one.outcome.case_id) continue;
-      const auto answer = with_ratings(one, rated);
+      const auto answer = rank_correlation(with_ratings(one, rated));
       const bool lower = one.outcome.better == assessment::Direction::lower_is_better;
       rows.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
       rows.raw("<span class=\"why\">")

@@ -29,6 +29,10 @@ double arrival(const LearningCurve& curve, double first, double closed) {
   return curve.kind == CurveKind::power ? first * std::exp(left) : first + left;
 }
 
+bool too_sudden(const LearningCurve& curve, const std::vector<double>& x, double closed) {
+  return arrival(curve, x.front(), closed) < *std::upper_bound(x.begin(), x.end(), x.front());
+}
+
 struct BothCurves {
   std::optional<LearningCurve> power, exponential;
 
@@ -86,6 +90,8 @@ void tell_one(Answer& answer, const Series& series, const BothCurves& curves, co
         "The rate is at the edge of what is searched: these values show no curve of this form.");
   if (!learned(best, options.higher_is_better)) {
     answer.notes.emplace_back("No learning detected.");
+  } else if (too_sudden(best, series.x, options.closed)) {
+    answer.notes.emplace_back(kTooSudden);
   } else {
     add_ways(answer, best, series.x.front(), options.closed);
   }
@@ -105,7 +111,7 @@ Answer of_several(Answer answer, const PersonsSeries& series, const LearningCurv
     const BothCurves curves = both(one);
     const LearningCurve* best = curves.better();
     if (best == nullptr) continue;
-    const bool does = learned(*best, options.higher_is_better);
+    const bool does = learned(*best, options.higher_is_better) && !too_sudden(*best, one.x, options.closed);
     learners += does ? 1 : 0;
     rates.push_back(best->b);
     const double arrived = does ? arrival(*best, one.x.front(), options.closed) : kNan;

@@ -36,6 +36,11 @@ struct LearningCurveOptions {
   bool higher_is_better = false;
   double closed = 0.9;  // of the way from the first attempt to the plateau that counts as having arrived
 };
+// Said in place of when the plateau is reached, where that would be before the second attempt: the first one
+// differs, and nothing lies on the way.
+inline constexpr const char* kTooSudden =
+    "The change lies between the first attempts and is faster than attempts can show: no course of learning is "
+    "told.";
 // One person: both curves. Several: the better curve of each, and the median of their rates.
 Answer learning_curve(const DataTable& table, const LearningCurveOptions& options);
 

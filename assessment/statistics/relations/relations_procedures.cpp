@@ -5,6 +5,7 @@
 #include "assessment/statistics/relations/counts.h"
 #include "assessment/statistics/relations/discrimination.h"
 #include "assessment/statistics/relations/fisher_exact.h"
+#include "assessment/statistics/relations/imputation.h"
 #include "assessment/statistics/relations/proportions.h"
 #include "assessment/statistics/relations/survival.h"
 #include "assessment/statistics/relations/tobit.h"
@@ -38,6 +39,11 @@ constexpr ProcedureOption kDraws[] = {
     kOrderOnly[0],
     {"statistic", "mean, median", "what is estimated, with two groups its difference; mean unless given"},
     {"resamples", "a whole number from 200 to 100000", "draws of persons; 5000 unless given"},
+    {"seed", "a whole number", "what the draws are made from; 1 unless given"},
+};
+constexpr ProcedureOption kImputations[] = {
+    kOrderOnly[0],
+    {"draws", "a whole number from 10 to 500", "how often what is missing is drawn; 50 unless given"},
     {"seed", "a whole number", "what the draws are made from; 1 unless given"},
 };
 constexpr Needs kGrouped{.group = true};
@@ -95,6 +101,14 @@ constexpr Procedure kRelationsProcedures[] = {
     {"tobit", "Difference of means where values end at a limit; take it for scores with a ceiling.",
      "value by group; two groups", kGrouped, kLimit, tobit,
      "Tobin, Econometrica 26 (1958) 24; Olsen, Econometrica 46 (1978) 1211", "AER tobit; 1e-6"},
+    {"imputed",
+     "Difference of two means where some persons have no value: multiple imputation; take it beside who has one.",
+     "value by group, empty where it is missing; x: what values go with, optional; two groups", kGrouped,
+     kImputations, imputed,
+     "Rubin, Multiple Imputation for Nonresponse in Surveys, 1987; Barnard, Rubin, Biometrika 86 (1999) 948",
+     "mice pool.scalar, 1e-9; R t.test of each completed table, 1e-9; its draws against R lm and Student's t of "
+     "the "
+     "posterior, by their moments; coverage"},
     {"bootstrap", "Interval of a mean, a median or their difference, whatever the distribution.",
      "value; group: optional, two groups", Needs{}, kDraws, bootstrap,
      "Efron, J. Am. Stat. Assoc. 82 (1987) 171; Davison, Hinkley, Bootstrap Methods, 1997",

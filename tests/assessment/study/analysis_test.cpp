@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "assessment/statistics/groups/groups_procedures.h"
+#include "assessment/statistics/relations/imputation.h"
 #include "tests/assessment/study/sample_plan.h"
 
 namespace seldinger::assessment::study {
@@ -171,6 +173,45 @@ TEST(Analysis, TheTippingPointIsWhereTheConclusionGoes) {
   EXPECT_GE(by_shift(shift), plan.alpha);
   EXPECT_LT(by_shift(shift - 0.001 * 10.0), plan.alpha) << "the least shift, to a thousandth of the range";
   EXPECT_EQ(of_kind(analyse(plan, all).primary[0], OtherRule::tipping), nullptr) << "asked for by a report alone";
+}
+
+// Where the plan asks for it: who is absent, from the other outcome; the same as the procedure says of the same
+// table.
+TEST(Analysis, WhoIsAbsentIsImputedWhereThePlanAsksForIt) {
+  Plan plan = sample_plan();
+  plan.imputations = 20;
+  plan.primary[1].impute_from = "distance";
+  std::vector<StudyPerson> all;
+  statistics::DataTable table;
+  table.values.push_back({"nogo_length", {}});
+  for (int i = 0; i < 20; ++i) {
+    const bool few = i % 2 == 0, away = i == 6 || i == 7;
+    const double distance = 3.0 + i % 7, nogo = distance + 0.25 * (i % 3) + (few ? 2.0 : 0.0);
+    StudyPerson& one = all.emplace_back(person("p" + std::to_string(i), few ? "few" : "many", {}));
+    one.attempts.push_back(attempt(distance, nogo));
+    if (away) one.attempts.back().metrics.pop_back();
+  }
+  for (const bool few : {true, false})
+    for (int i = few ? 0 : 1; i < 20; i += 2) {
+      table.values.front().values.push_back(i == 6 || i == 7 ? std::nan("")
+                                                             : 3.0 + i % 7 + 0.25 * (i % 3) + (few ? 2.0 : 0.0));
+      table.x.push_back(3.0 + i % 7);
+      table.group.emplace_back(few ? "few" : "many");
+      ++table.rows;
+    }
+  StudyResult result = analyse(plan, all);
+  add_sensitivity(plan, all, result);
+  const Sensitivity* imputed = of_kind(result.primary[1], OtherRule::imputed);
+  ASSERT_NE(imputed, nullptr);
+  const statistics::Answer want =
+      statistics::imputed(table, statistics::ProcedureOptions({{"order", "few:many"}, {"draws", "20"}}));
+  ASSERT_TRUE(want.estimable());
+  EXPECT_EQ(imputed->answer.estimate, want.estimate);
+  EXPECT_EQ(imputed->answer.ci95, want.ci95);
+  ASSERT_EQ(imputed->draws.size(), 20U);
+  EXPECT_EQ(imputed->draws.front().size(), 2U);
+  EXPECT_EQ(result.primary[1].answer.n, 18U) << "the planned comparison is of those who are there";
+  EXPECT_EQ(of_kind(result.primary[0], OtherRule::imputed), nullptr) << "ranks are not imputed";
 }
 
 TEST(Analysis, WhatIsNotSignificantHasNoTippingPoint) {

@@ -13,6 +13,7 @@ namespace seldinger::assessment::study {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 std::string problems_in(const std::string& json) {
   const auto plan = plan_from_json(json);
@@ -86,15 +87,34 @@ TEST(Plan, EverythingThatIsWrongIsSaid) {
       {"groups[0].facts[0].comparison is none of", {"\"<=\"", "\"<\""}},
       {"stopping.per_group is no number", {"\"per_group\": 3", "\"per_group\": 1"}},
       {"missing.absent is none of: left_out, failure", {"\"left_out\"", "\"ignored\""}},
+      {"missing.imputations are fewer than 10", {"\"why\": \"w\"", "\"why\": \"w\", \"imputations\": 9"}},
+      {"missing.imputations have no place: who is absent",
+       {"\"left_out\", \"why\": \"w\"", "\"failure\", \"why\": \"w\", \"imputations\": 20"}},
+      {"impute_from has no place", {"\"welch\"", "\"welch\", \"impute_from\": \"distance\""}},
+      {"impute_from names no other", {"\"welch\"", "\"welch\", \"impute_from\": \"no-go\""}},
       {"holds 1 fields that the plan does not know", {"\"decision\": \"d\"", "\"decision\": \"d\", \"p\": 1"}},
       {"decision is no text", {"\"decision\": \"d\"", "\"decision\": \"  \""}},
       {"names a field twice", {"\"decision\": \"d\"", "\"decision\": \"d\", \"decision\": \"e\""}},
   };
   for (const auto& [said, change] : kWrong)
     EXPECT_THAT(problems_in(with(change.first, change.second)), HasSubstr(said));
+  std::string of_order = with("\"welch\"", "\"mann_whitney\"");
+  of_order.replace(of_order.find("\"why\": \"w\""), 10, "\"why\": \"w\", \"imputations\": 20");
+  EXPECT_THAT(problems_in(of_order), HasSubstr("missing.imputations have no place: no primary"));
   for (const char* text : {"", "[]", "7", "{", "{\"title\": \"\xff\"}", "null"})
     EXPECT_EQ(plan_from_json(text).error().code, "bad_study_plan") << text;
   EXPECT_GE(plan_from_json("{}").error().findings.size(), 8U) << "all at once";
+}
+
+// What is not asked for is not in the canonical text: plans of before keep their hash.
+TEST(Plan, ImputationStandsInItsTextWhereItIsAskedFor) {
+  EXPECT_THAT(canonical_json(sample_plan()), Not(HasSubstr("imput")));
+  std::string json = with("\"why\": \"w\"", "\"why\": \"w\", \"imputations\": 50");
+  json.replace(json.find("\"welch\""), 7, "\"welch\", \"impute_from\": \"distance\"");
+  const Plan plan = plan_from_json(json).value();
+  EXPECT_EQ(plan.imputations, 50);
+  EXPECT_EQ(plan.primary[1].impute_from, "distance");
+  EXPECT_EQ(canonical_json(plan_from_json(canonical_json(plan)).value()), canonical_json(plan));
 }
 
 TEST(Plan, ArmsNeedASequenceAndGroupsHaveNone) {

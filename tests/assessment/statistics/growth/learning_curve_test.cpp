@@ -148,6 +148,26 @@ TEST(LearningCurve, SaysWhereNothingIsLearned) {
   EXPECT_NEAR(number_of(better, "plateau"), 90.0, 3.0);
 }
 
+// A first attempt unlike the others, which lie about 3: the steepest curve that is searched fits best, and when it
+// would have arrived is nothing that was seen.
+TEST(LearningCurve, TellsNoCourseWhereOnlyTheFirstAttemptDiffers) {
+  std::vector<double> values{15.0};
+  for (int k = 2; k <= 18; ++k) values.push_back(3.0 + 0.1 * std::cos(9.0 * k));
+  const Answer answer = learning_curve(attempts(values), {});
+  ASSERT_TRUE(answer.estimable());
+  EXPECT_THAT(answer.notes, testing::Contains(kTooSudden));
+  for (const Named& one : answer.more) {
+    EXPECT_NE(one.name, "half_way_at");
+    EXPECT_NE(one.name, "plateau_reached_at");
+  }
+  EXPECT_NEAR(number_of(answer, "plateau"), 3.0, 0.2);
+  // A third of the way is left at the second attempt: that is a course.
+  values.clear();
+  for (int k = 1; k <= 18; ++k) values.push_back(3.0 + 12.0 * std::exp(-1.1 * (k - 1)) + 0.01 * std::cos(9.0 * k));
+  EXPECT_THAT(learning_curve(attempts(values), {}).notes, testing::Not(testing::Contains(kTooSudden)));
+  EXPECT_GT(number_of(learning_curve(attempts(values), {}), "plateau_reached_at"), 2.0);
+}
+
 TEST(LearningCurve, NeedsFiveAttempts) {
   EXPECT_EQ(learning_curve(attempts({9, 7, 6, 5.5}), {}).reason, "too_few");
   EXPECT_EQ(learning_curve(attempts({}), {}).reason, "no_data");

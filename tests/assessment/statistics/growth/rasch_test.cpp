@@ -52,9 +52,12 @@ DataTable answered(base::Rng& rng, const Planted& of) {
   for (std::size_t p = 0; p < of.persons; ++p) {
     const double ability = 1.2 * rng.normal();
     for (std::size_t r = 0; r < of.raters; ++r) {
+      std::size_t left = of.items;  // two at the least: eRm stops at a person with one answer
       for (std::size_t i = 0; i < of.items; ++i) {
         const int score = answer_of(rng, of, ability - of.difficulty(i) - of.severity(r));
-        table.values[i].values.push_back(rng.uniform() < of.missing ? std::nan("") : score);
+        const bool missing = rng.uniform() < of.missing && left > 2;
+        left -= missing ? 1 : 0;
+        table.values[i].values.push_back(missing ? std::nan("") : score);
       }
       table.subject.push_back("p" + std::to_string(p));
       if (of.raters > 1) table.rater.push_back("r" + std::to_string(r + 1));

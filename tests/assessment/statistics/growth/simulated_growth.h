@@ -33,7 +33,8 @@ inline assessment::statistics::DataTable unbalanced_growth(base::Rng& rng, std::
   return table;
 }
 
-// d with the columns y, x, s and g; levels of g in the order of their rows.
+// d with the columns y, x, s and g, without rows whose y is missing; levels of g in the order of the rows that are
+// left, as ours are.
 inline std::string r_table(const assessment::statistics::DataTable& table) {
   const auto words = [](const std::vector<std::string>& labels) {
     std::string text = "c(";
@@ -42,8 +43,9 @@ inline std::string r_table(const assessment::statistics::DataTable& table) {
   };
   std::string text = "d <- data.frame(y = " + r_vector(table.values.front().values) + ", x = " + r_vector(table.x) +
                      ", s = " + words(table.subject) + ")\n";
-  if (!table.group.empty()) text += "d$g <- " + words(table.group) + "\nd$g <- factor(d$g, levels = unique(d$g))\n";
-  return text + "d <- d[!is.na(d$y), ]\n";
+  if (!table.group.empty()) text += "d$g <- " + words(table.group) + "\n";
+  text += "d <- d[!is.na(d$y), ]\n";
+  return table.group.empty() ? text : text + "d$g <- factor(d$g, levels = unique(d$g))\n";
 }
 
 }  // namespace seldinger::fixtures

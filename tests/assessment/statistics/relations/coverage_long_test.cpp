@@ -10,6 +10,7 @@
 #include "assessment/statistics/relations/fisher_exact.h"
 #include "assessment/statistics/relations/proportions.h"
 #include "tests/assessment/statistics/relations/coverage.h"
+#include "tests/assessment/statistics/relations/missing_values.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
@@ -233,6 +234,20 @@ TEST(Coverage, OfDrawsIsPublished) {
                    kRuns);
   expect_published("BCa, difference of medians, normal", 0.0, drawn("median", true, false), fixtures::limits_of,
                    kRuns);
+}
+
+// Where who is missing depends on what is known: with it the interval holds the truth, without it it does not.
+TEST(Coverage, OfImputedMeansIsAsPromised) {
+  for (const std::size_t each : {12u, 30u, 100u}) {
+    base::Rng rng(110 + each);
+    const fixtures::Imputed found = fixtures::imputed_coverage(rng, each, 2000);
+    std::printf("imputed, %zu in each group: %.4f, without x %.4f, bias %.4f, %zu runs\n", each, found.covered,
+                found.covered_by_present, found.bias, found.runs);
+    EXPECT_GE(found.runs, 1900u);
+    EXPECT_GE(found.covered, 0.93);
+    EXPECT_LE(found.covered, 0.97);
+    EXPECT_LT(std::abs(found.bias), 0.03);
+  }
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class Degenerate {
 
   DataTable table(const Procedure& procedure) {
     DataTable table;
-    table.rows = upto(9);
+    table.rows = upto(9) * (std::string_view(procedure.name) == "imputed" ? 3 : 1);  // which asks for ten at least
     const std::size_t kind = upto(8), groups = upto(3) == 0 ? 1 + upto(3) : 2;
     for (std::size_t c = 0; c < procedure.needs.most_values; ++c)
       table.values.push_back({"v", column(table.rows, kind)});
