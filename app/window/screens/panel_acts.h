@@ -41,6 +41,7 @@ class ActsPanel {
   std::map<cases::EventKind, int> done_;                    // how often
   std::uint32_t numbed_ = 0, deep_ = 0, guides_asked_ = 0;  // that were answered
   bool in_guide_ = false, fired_ = false;
+  double aspirated_s_ = 0.0;       // of the last one that was answered
   std::string answered_, answer_;  // when, and what
   double planned_mm_ = 0.0;        // how far the needle is to go in, as it is noted; 0: not planned
 };
