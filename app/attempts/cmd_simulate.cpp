@@ -29,20 +29,29 @@ base::Result<assessment::OperatorProfile> profile_of(const std::string& name) {
   return profile ? std::move(profile) : error_of("--operator", name, profile.error());
 }
 
+// What can be put into an attempt: a mentor's events, and what is done at the needle's hub, which no operator does.
+bool may_be_put_in(cases::EventKind kind) {
+  using enum cases::EventKind;
+  return cases::find_event(kind)->source == cases::EventSource::mentor || kind == stylet_out || kind == stylet_in ||
+         kind == inject;
+}
+
 // "cough@12.5"
-cases::Event mentors_event(const std::string& text) {
+cases::Event put_in_event(const std::string& text) {
   const std::size_t at = text.find('@');
   const auto kind = cases::event_from(text.substr(0, at));
   const double t_s = at == text.npos ? -1.0 : parse_number(text.substr(at + 1)).value_or(-1.0);
-  if (!kind || cases::find_event(*kind)->source != cases::EventSource::mentor || !(t_s >= 0.0))
-    throw UsageError("--event is cough, bleeding or pressure_drop, @ and a time in seconds: cough@12.5");
+  if (!kind || !may_be_put_in(*kind) || !(t_s >= 0.0))
+    throw UsageError(
+        "--event is cough, bleeding, pressure_drop, stylet_out, stylet_in or inject, @ and a time in seconds: "
+        "cough@12.5");
   return {t_s, *kind};
 }
 
 std::vector<cases::Event> scenario_of(const Arguments& arguments) {
   std::vector<cases::Event> scenario;
   if (arguments.has("--event"))
-    for (const std::string& text : arguments.all("--event")) scenario.push_back(mentors_event(text));
+    for (const std::string& text : arguments.all("--event")) scenario.push_back(put_in_event(text));
   std::stable_sort(scenario.begin(), scenario.end(),
                    [](const cases::Event& a, const cases::Event& b) { return a.t_s < b.t_s; });
   return scenario;
@@ -223,7 +232,9 @@ constexpr Option kSimulateOptions[] = {
     {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
     {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
     {"--event", "KIND@SECONDS",
-     "a mentor's event at that time: cough, bleeding or pressure_drop; may be given many times", true},
+     "what happens at that time: a mentor's cough, bleeding or pressure_drop, or stylet_out, stylet_in or inject "
+     "(2 ml of contrast) at an access needle's hub; may be given many times",
+     true},
     {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
     {"--resume", "ATTEMPT",
      "go on with an interrupted attempt in real time: case, needle and seed are its own, and so is the operator, "

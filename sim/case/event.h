@@ -20,13 +20,16 @@ enum class EventKind : std::uint8_t {
   proceed = 2,
   defer = 3,
   probe_checked = 4,
-  note_plan = 5,  // with a length since there are depths that are measured, where one was planned
-  aspirate = 6,
+  note_plan = 5,    // with a length since there are depths that are measured, where one was planned
+  aspirate = 6,     // through the needle with a length: how far it is in
   anaesthetic = 7,  // through the needle with a length: how far it is in
   nick = 8,
   breath_hold_request = 9,
   breathe_again = 10,
   sign_out = 11,
+  stylet_out = 12,
+  stylet_in = 13,
+  inject = 14,          // one push of contrast, engine/needle_flow
   depth_measured = 16,  // with a length
   // The mentor's.
   cough = 32,
@@ -37,6 +40,11 @@ enum class EventKind : std::uint8_t {
   pain_bone = 65,
   breath_held = 66,
   breath_lost = 67,
+  urine_returns = 68,
+  bile_returns = 69,
+  dark_blood_returns = 70,
+  bright_blood_returns = 71,
+  fluid_returns = 72,
   // The workstation's.
   resumed = 96,
   paused = 97,

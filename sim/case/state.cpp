@@ -28,6 +28,20 @@ std::uint64_t hash_of(const FluoroscopyState& state, std::uint64_t previous) noe
   return hash;
 }
 
+std::uint64_t hash_of(const NeedleFlow& flow, std::uint64_t previous) noexcept {
+  std::uint64_t hash = previous;
+  const auto add = [&hash](auto... values) { ((hash = base::hash_combine(hash, values)), ...); };
+  add(std::uint64_t{flow.stylet_out ? 1U : 0U} | std::uint64_t{static_cast<std::uint8_t>(flow.column)} << 8U |
+      std::uint64_t{static_cast<std::uint8_t>(flow.at_hub)} << 16U |
+      std::uint64_t{static_cast<std::uint8_t>(flow.aspirated)} << 24U);
+  add(flow.column_ml, flow.syringe_ml, flow.injected_ml, flow.carried_away_ml);
+  for (const ContrastPool& pool : flow.pools) {
+    add(static_cast<std::uint64_t>(static_cast<std::int64_t>(pool.lumen)));
+    add(pool.at_rest_lps_mm.x, pool.at_rest_lps_mm.y, pool.at_rest_lps_mm.z, pool.spread_ml, pool.contrast_ml);
+  }
+  return hash;
+}
+
 }  // namespace
 
 std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
@@ -67,6 +81,7 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
   if (const ConsoleSetting& console = state.probe.console; !(console == ConsoleSetting{}))
     for (const double value : {console.depth_mm, console.focus_mm, console.frequency_mhz, console.slice_mm})
       add(value);
+  if (state.flow.in_use) hash = hash_of(state.flow, hash);
   return state.fluoroscopy.in_use ? hash_of(state.fluoroscopy, hash) : hash;
 }
 

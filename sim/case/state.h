@@ -1,4 +1,5 @@
-// State: all that must be saved to go on. One writer: engine/step. Every field enters state_hash().
+// State: all that must be saved to go on. Writers: engine/step and, of what flows
+// through the needle, engine/needle_flow. Every field enters state_hash().
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include "sim/case/breathing.h"
 #include "sim/case/fluoroscope.h"
 #include "sim/case/inputs.h"
+#include "sim/case/needle_flow.h"
 #include "sim/case/skin_passage.h"
 
 namespace seldinger::cases {
@@ -49,6 +51,7 @@ struct State {
   FireState fire;
   PatientBreath breath;
   FluoroscopyState fluoroscopy;
+  NeedleFlow flow;  // hashed only where it is in use
 };
 
 // Hash of every field, chained to the hash of the tick before; the same on every machine.

@@ -14,12 +14,23 @@ using cases::EventKind;
 constexpr double kPointingMm = 150.0;  // a needle held nearer than this points at a place on the skin
 
 void note(EventKind kind, PatientState& patient) noexcept {
+  if (kind == EventKind::none) return;
   for (EventKind& place : patient.waiting) {
     if (place == kind) return;
     if (place != EventKind::none) continue;
     place = kind;
     return;
   }
+}
+
+EventKind return_of(cases::LumenContent content) noexcept {
+  constexpr EventKind kReturns[] = {EventKind::none,
+                                    EventKind::urine_returns,
+                                    EventKind::bile_returns,
+                                    EventKind::dark_blood_returns,
+                                    EventKind::bright_blood_returns,
+                                    EventKind::fluid_returns};
+  return kReturns[static_cast<std::size_t>(content)];
 }
 
 bool is_numb(const glm::dvec3& place_lps_mm, const std::array<glm::dvec3, kNumbPlaces>& places_lps_mm,
@@ -90,6 +101,9 @@ EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& stat
       note(EventKind::pain_bone, patient);
     patient.bone_s = state.t_s;
   }
+
+  if (state.flow.at_hub != patient.returned) note(return_of(state.flow.at_hub), patient);
+  patient.returned = state.flow.at_hub;
 
   const EventKind told = patient.waiting[0];
   std::rotate(patient.waiting.begin(), patient.waiting.begin() + 1, patient.waiting.end());

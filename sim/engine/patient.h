@@ -1,5 +1,6 @@
-// How the patient reacts to what is done and asked: pain where the needle meets bone or skin that is not numb, and
-// holding the breath. A phantom never does. Same inputs, same reactions, on every machine.
+// How the patient reacts to what is done and asked: pain where the needle meets bone or skin that is not numb,
+// holding the breath, and what runs back through an open needle. A phantom never does. Same inputs, same reactions,
+// on every machine.
 #pragma once
 
 #include <array>
@@ -30,6 +31,7 @@ struct PatientState {
   std::array<glm::dvec3, kNumbPlaces> deep_lps_mm{};  // the same of those about a tip in tissue
   std::uint32_t deep = 0;
   bool was_in_body = false, held = false, let_go = false;
+  cases::LumenContent returned = cases::LumenContent::none;  // that was told
   double bone_s = -1e9;
   std::array<cases::EventKind, 4> waiting{};  // reactions not told yet, in their order
 };

@@ -46,7 +46,7 @@ void Scenario::add_to(cases::Inputs& inputs, double t_s, std::uint32_t& happened
   ++happened;
 }
 
-Tick::Tick(const cases::Case& scene) : scene_(scene), tissue_(scene), patient_(scene) {
+Tick::Tick(const cases::Case& scene) : scene_(scene), tissue_(scene), patient_(scene), flows_(scene) {
   if (!scene.classes.empty()) hands_.emplace(scene, haptics::two_virtual_arms());
 }
 
@@ -90,6 +90,7 @@ cases::RecordedTick Tick::advance(const cases::Inputs& inputs, double dt_s, Tick
   const bool fired = state.fire.fired;
   // By what held until now: a hand's tick is felt, and shows, in the next.
   step(scene_, inputs, dt_s, tissue_.felt_by_needle(state, now.hands), state);
+  flows_.advance(inputs, state.needle, dt_s, state.flow);
   now.hash = cases::state_hash(state, now.hash);
   tick.hash = static_cast<std::uint32_t>(now.hash);
   tick.reaction = patient_.advance(inputs, state, now.patient);

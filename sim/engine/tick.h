@@ -14,6 +14,7 @@
 #include "sim/case/inputs.h"
 #include "sim/case/record/recorded_tick.h"
 #include "sim/engine/moving_tissue.h"
+#include "sim/engine/needle_flow.h"
 #include "sim/engine/patient.h"
 #include "sim/engine/tick_state.h"
 #include "sim/haptics/two_hands.h"
@@ -79,6 +80,7 @@ class Tick {
   const cases::Case& scene_;
   MovingTissue tissue_;
   Patient patient_;
+  NeedleFlows flows_;
   std::optional<haptics::TwoHands> hands_;
 };
 

@@ -6,7 +6,7 @@
 namespace seldinger::engine {
 namespace {
 
-constexpr fields::Mark kMark = {{'S', 'e', 'l', 'd', 'T', 'i', 'c', 'k'}, 2};
+constexpr fields::Mark kMark = {{'S', 'e', 'l', 'd', 'T', 'i', 'c', 'k'}, 3};
 
 // What the laws take as an index must be one, whoever wrote the bytes.
 bool usable(const TickState& now) noexcept {
@@ -23,6 +23,9 @@ bool usable(const TickState& now) noexcept {
   }
   for (const cases::EventKind kind : now.patient.waiting)
     if (!known(kind)) return false;
+  const cases::NeedleFlow& flow = now.state.flow;
+  for (const cases::LumenContent content : {flow.column, flow.at_hub, flow.aspirated, now.patient.returned})
+    if (content > cases::LumenContent::fluid) return false;
   const tissue::Displacement& moved = now.displacement;
   if (moved.contact_end < 0 || moved.tip_end < moved.contact_end || moved.shaft_end < moved.tip_end ||
       moved.vein_end < moved.shaft_end || moved.breath_end < moved.vein_end ||

@@ -35,7 +35,10 @@ SELDINGER_FIELDS(cases::ViewingAngles, count, widest, lao, cranial)
 SELDINGER_FIELDS(cases::FluoroscopyState, in_use, arm, arm_moving, beam_on, frame_due, live, hand_away, frames,
                  wait, rate, magnification, collimator, technique, last_technique, frame_s, reported, time,
                  while_moving, hand_in_beam, kerma, dap, collimated, views)
-SELDINGER_FIELDS(cases::State, tick, t, needle, probe, fire, breath, fluoroscopy)
+SELDINGER_FIELDS(cases::ContrastPool, lumen, at_rest, spread, contrast)
+SELDINGER_FIELDS(cases::NeedleFlow, in_use, stylet_out, column, column_ml, at_hub, aspirated, syringe, injected,
+                 carried_away, pools)
+SELDINGER_FIELDS(cases::State, tick, t, needle, probe, fire, breath, fluoroscopy, flow)
 
 SELDINGER_FIELDS(haptics::NeedleTissue, slope, intercept, tip_stiffness, rupture, dent, impenetrable)
 SELDINGER_FIELDS(haptics::NeedleLayer, start, tissue)
@@ -54,7 +57,7 @@ SELDINGER_FIELDS(haptics::VolumeProxyTrack, proxy, spring, begun, touching, hold
 SELDINGER_FIELDS(haptics::ForceLimiterState, out, share, heat, fault_n, fault_s)
 SELDINGER_FIELDS(haptics::HandState, tool, needle, probe, finger, pointer, limiter, last, delay, interrupted)
 
-SELDINGER_FIELDS(PatientState, numb, numbed, deep_at, deep, was_in_body, held, let_go, bone, waiting)
+SELDINGER_FIELDS(PatientState, numb, numbed, deep_at, deep, was_in_body, held, let_go, returned, bone, waiting)
 SELDINGER_FIELDS(devices::VirtualDeviceState, pose, started)
 SELDINGER_FIELDS(VirtualArms, needle, probe)
 SELDINGER_FIELDS(shaders::DisplacementSource, place, along, size, amount)

@@ -10,14 +10,14 @@ namespace {
 constexpr double kLeastOpen = 0.05;  // of its width next to the near wall, with what is pushed (design)
 constexpr double kStrainMm = 0.5;    // over which strain is told
 
+}  // namespace
+
 bool says_vein(const std::string& name) {
   std::string lower = name;
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return lower.find("vein") != std::string::npos || lower.find("vena") != std::string::npos;
 }
-
-}  // namespace
 
 std::vector<CompressibleVein> compressible_veins(const cases::Case& scene) {
   std::vector<CompressibleVein> veins;

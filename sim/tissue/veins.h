@@ -17,6 +17,9 @@ struct CompressibleVein {
   cases::Tube tube;
 };
 
+// Whether a name is that of a vein: it says vein or vena.
+bool says_vein(const std::string& name);
+
 // A drawn tube of the class vessel whose name says vein or vena. Arteries keep their shape: their blood's pressure
 // is many times what a probe adds. At most kMostVeins, the first ones.
 std::vector<CompressibleVein> compressible_veins(const cases::Case& scene);

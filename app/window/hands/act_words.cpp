@@ -4,10 +4,20 @@
 #include <glm/geometric.hpp>
 
 #include "sim/base/check.h"
+#include "sim/engine/needle_flow.h"
 #include "sim/tissue/breathing.h"
 
 namespace seldinger::app {
 namespace {
+
+std::string whole_ml(double ml) {
+  return std::to_string(std::lround(ml)) + " ml";
+}
+
+const char* content_words(cases::LumenContent content) {
+  constexpr const char* kWords[] = {"nothing", "urine", "bile", "dark blood", "bright blood", "fluid"};
+  return kWords[static_cast<std::size_t>(content)];
+}
 
 std::string whole_mm(double mm) {
   return std::to_string(std::lround(mm)) + " mm";
@@ -40,11 +50,18 @@ std::string said_words(const Said& said) {
                  ? "Entry noted, and the needle is planned to go in by " + whole_mm(said.planned_mm) + "."
                  : "Entry noted; how deep the needle is to go is not set.";
     case EventKind::aspirate:
-      return "Aspirated: no blood comes.";
+      return said.needle_in ? "Aspirating through the needle …" : "Aspirated: no blood comes.";
     case EventKind::anaesthetic:
       return "Local anaesthetic is given …";
     case EventKind::nick:
       return "The skin is nicked where the needle points at it.";
+    case EventKind::stylet_out:
+      return "The stylet is out: watch what comes back.";
+    case EventKind::stylet_in:
+      return "The stylet is in again.";
+    case EventKind::inject:
+      return said.needle_in ? "Contrast is injected: " + whole_ml(engine::kPushMl) + "."
+                            : "The needle is outside the body: the contrast drips away.";
     case EventKind::breath_hold_request:
       return "Asked to hold the breath.";
     case EventKind::breathe_again:
@@ -68,6 +85,20 @@ std::string numb_words(const engine::Moment& moment) {
 std::string deep_numb_words(const engine::Moment& moment) {
   return "Numb: " + whole_mm(engine::kNumbMm) + " about the needle’s tip, which is " +
          whole_mm(moment.state.needle.inserted_mm) + " in.";
+}
+
+std::string aspirated_words(const cases::NeedleFlow& flow) {
+  if (flow.aspirated == cases::LumenContent::none) return "Aspirated through the needle: no blood comes.";
+  return std::string("Aspirated through the needle: ") + content_words(flow.aspirated) + " comes.";
+}
+
+std::string flow_words(const cases::NeedleFlow& flow) {
+  if (!flow.stylet_out) return {};
+  if (flow.syringe_ml > 0.0) return "contrast is running in";
+  const bool runs = flow.column != cases::LumenContent::none && flow.column == flow.at_hub;
+  if (!runs) return "nothing comes out of the open needle";
+  return std::string(content_words(flow.at_hub)) +
+         (flow.at_hub == cases::LumenContent::arterial_blood ? " spurts" : " drips") + " from the open needle";
 }
 
 std::string guide_words(const Seen& seen, cases::Modality modality) {

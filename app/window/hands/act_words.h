@@ -23,12 +23,17 @@ struct Said {
   cases::EventKind kind = cases::EventKind::none;
   double planned_mm = 0.0;  // of note_plan; 0: without
   bool flipped = false;     // the picture: its marker is on the right
+  bool needle_in = false;   // in the body
 };
 std::string said_words(const Said& said);
 // Of the newest place that is numb; CHECKs that there is one.
 std::string numb_words(const engine::Moment& moment);
 // Of what was given just now through a needle in tissue.
 std::string deep_numb_words(const engine::Moment& moment);
+// Of what was aspirated just now through a needle in tissue.
+std::string aspirated_words(const cases::NeedleFlow& flow);
+// Of an open needle, what runs through it now; empty: its stylet is in.
+std::string flow_words(const cases::NeedleFlow& flow);
 // Of what has become of the needle guide since it was asked for: taken up, put aside, or why not.
 std::string guide_words(const Seen& seen, cases::Modality modality);
 // Of a patient who was asked to hold the breath; empty: none was, or it is over.

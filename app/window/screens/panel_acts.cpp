@@ -21,11 +21,13 @@ struct Saying {
   const char* label;
   EventKind kind;
 };
-constexpr std::array<Saying, 7> kSayings = {{
+constexpr std::array<Saying, 9> kSayings = {{
     {kF1, "F1  Probe checked", EventKind::probe_checked},
     {kF1 + 1, "F2  Entry and depth noted", EventKind::note_plan},
     {kF1 + 2, "F3  Aspirate", EventKind::aspirate},
     {kF1 + 3, "F4  Anaesthetic", EventKind::anaesthetic},
+    {'/', "/  Stylet out, in", EventKind::stylet_out},
+    {'\\', "\\  Inject contrast", EventKind::inject},
     {kF1 + 5, "F6  Nick the skin", EventKind::nick},
     {kF1 + 6, "F7  Hold your breath", EventKind::breath_hold_request},
     {kF1 + 7, "F8  Breathe again", EventKind::breathe_again},
@@ -35,6 +37,8 @@ bool asked_for(const Saying& saying, const cases::Case& scene) {
   if (saying.kind == EventKind::probe_checked) return scene.picture.modality == cases::Modality::ultrasound;
   if (saying.kind == EventKind::note_plan) return true;
   if (scene.subject == cases::Subject::phantom) return false;
+  if (saying.kind == EventKind::stylet_out || saying.kind == EventKind::inject)
+    return scene.instrument.kind == cases::InstrumentKind::access && scene.instrument.inner_radius_mm > 0.0;
   if (saying.kind == EventKind::nick) return scene.instrument.kind == cases::InstrumentKind::core;
   return true;
 }
@@ -57,6 +61,7 @@ void ActsPanel::begin(const PersonAttempt& attempt, const std::optional<assessme
   numbed_ = deep_ = guides_asked_ = 0;
   in_guide_ = fired_ = false;
   happened_s_ = 0.0;
+  aspirated_s_ = 0.0;
   answered_.clear();
   answer_.clear();
   planned_mm_ = plan ? std::round(plan->depth_mm()) : 0.0;
@@ -72,12 +77,14 @@ void ActsPanel::answer(const Seen& seen, const std::string& words) {
 
 void ActsPanel::say(PersonAttempt& attempt, const Seen& seen, bool flipped, EventKind kind) {
   const cases::NeedleState& needle = seen.moment.state.needle;
+  if (kind == EventKind::stylet_out && seen.moment.state.flow.stylet_out) kind = EventKind::stylet_in;
   double length_mm = 0.0;
   if (kind == EventKind::note_plan) length_mm = planned_mm_;
-  if (kind == EventKind::anaesthetic && needle.skin.in_body) length_mm = needle.inserted_mm;
+  if ((kind == EventKind::anaesthetic || kind == EventKind::aspirate) && needle.skin.in_body)
+    length_mm = needle.inserted_mm;
   if (!attempt.say(kind, length_mm)) return answer(seen, "Too much at once: say it again.");
   ++done_[kind];
-  std::string words = said_words({kind, length_mm, flipped});
+  std::string words = said_words({kind, length_mm, flipped, needle.skin.in_body});
   if (words.empty())
     if (const cases::EventInfo* info = cases::find_event(kind)) words = info->words;  // a mentor's
   answer(seen, words);
@@ -106,6 +113,11 @@ void ActsPanel::look(const Seen& seen, const cases::Case& scene) {
   if (event != nullptr && event->source == cases::EventSource::mentor && seen.moment.event_t_s > happened_s_) {
     happened_s_ = seen.moment.event_t_s;
     answer(seen, event->words);
+  }
+  const engine::Moment& moment = seen.moment;
+  if (moment.event == EventKind::aspirate && moment.event_t_s > aspirated_s_ && moment.state.needle.skin.in_body) {
+    aspirated_s_ = moment.event_t_s;
+    answer(seen, aspirated_words(moment.state.flow));
   }
   if (seen.guides_asked != guides_asked_ || (seen.in_guide && !in_guide_))
     answer(seen, guide_words(seen, scene.picture.modality));
@@ -170,7 +182,9 @@ void ActsPanel::draw_decision(PersonAttempt& attempt, const Seen& seen, bool fli
 // Above the buttons, where it stays in sight however many rows they take.
 void ActsPanel::draw_answer(const Seen& seen) {
   const std::string breath = breath_words(seen.moment.state.breath);
-  const std::string words = answer_ + (breath.empty() ? "" : "  Now " + breath + ".");
+  const std::string flow = flow_words(seen.moment.state.flow);
+  const std::string words =
+      answer_ + (breath.empty() ? "" : "  Now " + breath + ".") + (flow.empty() ? "" : "  Now " + flow + ".");
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.86F, 0.97F, 1.0F));
   ImGui::TextWrapped("%s%s", answered_.c_str(), words.empty() ? " " : words.c_str());
   ImGui::PopStyleColor();

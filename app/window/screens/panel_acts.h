@@ -42,6 +42,7 @@ class ActsPanel {
   std::uint32_t numbed_ = 0, deep_ = 0, guides_asked_ = 0;  // that were answered
   bool in_guide_ = false, fired_ = false;
   double happened_s_ = 0.0;        // when a mentor let something happen last, as it was answered
+  double aspirated_s_ = 0.0;       // of the last one that was answered
   std::string answered_, answer_;  // when, and what
   double planned_mm_ = 0.0;        // how far the needle is to go in, as it is noted; 0: not planned
 };

@@ -41,6 +41,25 @@ TEST(ActWords, OfAnAnaestheticTellTheNewestPlace) {
   EXPECT_EQ(deep_numb_words(moment), "Numb: 15 mm about the needle’s tip, which is 32 mm in.");
 }
 
+TEST(ActWords, OfWhatComesOutOfANeedleNameIt) {
+  using cases::LumenContent;
+  EXPECT_EQ(said_words({EventKind::aspirate}), "Aspirated: no blood comes.");
+  EXPECT_EQ(said_words({EventKind::aspirate, 40.0, false, true}), "Aspirating through the needle …");
+  cases::NeedleFlow flow;
+  EXPECT_EQ(aspirated_words(flow), "Aspirated through the needle: no blood comes.");
+  EXPECT_EQ(flow_words(flow), "");
+  flow.aspirated = LumenContent::arterial_blood;
+  EXPECT_EQ(aspirated_words(flow), "Aspirated through the needle: bright blood comes.");
+  flow.stylet_out = true;
+  EXPECT_EQ(flow_words(flow), "nothing comes out of the open needle");
+  flow.column = flow.at_hub = LumenContent::urine;
+  EXPECT_EQ(flow_words(flow), "urine drips from the open needle");
+  flow.column = LumenContent::none;
+  EXPECT_EQ(flow_words(flow), "nothing comes out of the open needle") << "its tip has left the lumen";
+  flow.syringe_ml = 0.5;
+  EXPECT_EQ(flow_words(flow), "contrast is running in");
+}
+
 TEST(ActWords, OfAGuideSayWhyThereIsNone) {
   using cases::Modality;
   Seen seen;
