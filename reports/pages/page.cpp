@@ -10,7 +10,8 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
           "<meta name=\"color-scheme\" content=\"light dark\">\n<title>")
       .text(title)
       .raw(
-          " · Seldinger</title>\n<link rel=\"stylesheet\" href=\"/style.css\">\n</head>\n<body>\n"
+          " · Seldinger</title>\n<link rel=\"stylesheet\" href=\"/style.css\">\n<link rel=\"icon\" "
+          "href=\"/icon.svg\" type=\"image/svg+xml\">\n</head>\n<body>\n"
           "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n"
           "<header class=\"top\">\n<p class=\"brand\">");
   if (visitor.name.empty())

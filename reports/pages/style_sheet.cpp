@@ -41,4 +41,8 @@ std::string_view tables_script() {
   return page_file("tables.js");
 }
 
+std::string_view icon() {
+  return page_file("icon.svg");
+}
+
 }  // namespace seldinger::reports

@@ -1,5 +1,5 @@
 // The one style sheet of all pages: served by the dashboard, and put into pages that are files of their own. And
-// the scripts, each of the pages that need it.
+// the scripts, each of the pages that need it, and the icon.
 #pragma once
 
 #include <string_view>
@@ -11,5 +11,6 @@ std::string_view keep_typed_script();
 std::string_view replay_script();
 std::string_view film_script();
 std::string_view tables_script();
+std::string_view icon();  // SVG
 
 }  // namespace seldinger::reports

@@ -59,8 +59,7 @@ async function look(page, name) {
 async function logIn(context, base, name) {
   const page = await context.newPage();
   page.on("console", (message) => {
-    // There is no icon, for which browsers ask by themselves.
-    if (message.type() === "error" && !message.location().url.endsWith("/favicon.ico")) report(`${where} ${page.url()}: console: ${message.text()}`);
+    if (message.type() === "error") report(`${where} ${page.url()}: console: ${message.text()}`);
   });
   page.on("pageerror", (error) => report(`${where} ${page.url()}: ${error.message}`));
   await page.goto(base + "/");
@@ -116,6 +115,14 @@ const jobs = {
     await page.getByRole("link", { name: "What was on the screen" }).click();
     await page.locator(".strip img").first().waitFor();
     await look(page, "pictures");
+    const broken = await page.locator(".strip img").evaluateAll(async (all) => {
+      for (const one of all) one.loading = "eager";
+      await Promise.all(all.map((one) => one.decode().catch(() => {})));
+      return all.filter((one) => one.naturalWidth !== Number(one.getAttribute("width"))).length;
+    });
+    expect(broken === 0, `${broken} small pictures are not there`);
+    const whole = await page.request.get(await page.locator(".strip a").first().evaluate((one) => one.href));
+    expect(whole.ok() && whole.headers()["content-type"] === "image/png", "the whole picture does not open");
     await page.getByRole("link", { name: "About you" }).click();
     await page.getByRole("button", { name: "Save" }).click();
     await page.getByText("Saved.").waitFor();
@@ -183,6 +190,23 @@ const jobs = {
     await look(page, "audit");
     await page.getByRole("link", { name: "Log-ins" }).click();
     await look(page, "log-ins");
+    await page.getByRole("link", { name: "Accounts" }).click();
+    const newcomer = where.replaceAll(" ", "-");
+    await page.getByLabel("Name").fill(newcomer);
+    await page.getByRole("button", { name: "Make a one-time link" }).click();
+    await look(page, "accounts");
+    const theirs = await page.context().browser().newContext({ viewport: page.viewportSize() });
+    const their = await theirs.newPage();
+    await their.goto(await page.locator(".message code").textContent());
+    await look(their, "password");
+    for (const name of ["New password", "The same again"]) await their.getByLabel(name).fill(password);
+    await their.getByRole("button", { name: "Set it" }).click();
+    await their.getByLabel("Name").fill(newcomer);
+    await their.getByLabel("Password").fill(password);
+    await their.getByRole("button", { name: "Log in" }).click();
+    await their.waitForURL(base + "/");
+    expect((await heading(their)) === "What is next", "who was invited lands elsewhere");
+    await theirs.close();
   },
 };
 

@@ -155,7 +155,7 @@ class World {
         if (reads_people) asked.holds = trainee_name(trainee);
       } else if (pattern.find("{study_id}") != pattern.npos) {
         asked.path = filled(pattern, study_id_);
-        asked.holds = name;
+        if (route.is_page) asked.holds = name;
       } else if (pattern == "/progress" && reads_people) {
         asked.people = role == Role::mentor ? kLearners : kTrainees / kProgrammes;
       } else if (route.is_page) {
@@ -358,7 +358,7 @@ void check_first_loads(int attempts, std::size_t most_bytes) {
     EXPECT_EQ(compress2(out.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size(), 6), Z_OK);
     return static_cast<std::size_t>(size) + 12;  // gzip's longer head and end
   };
-  static const std::regex part("(?:href=\"(/[a-z_.-]+\\.css)|src=\"(/[^\"]+))\"");
+  static const std::regex part("(?:href=\"(/[a-z_.-]+\\.(?:css|svg))|src=\"(/[^\"]+))\"");
   int number = 0;
   std::set<std::pair<Role, std::string>> seen;
   for (const Client& client : fifty(served.world())) {

@@ -115,7 +115,7 @@ TEST(AccessMatrix, EveryRouteAnswersEveryRoleAndRelationAsTheTableSays) {
       checks += 2;
     }
   }
-  EXPECT_EQ(checks, 5 * 17 * (20 * 2 + 7 + 2));
+  EXPECT_EQ(checks, 5 * 17 * (32 * 2 + 7 + 2));
   EXPECT_GT(allowed, 300) << "a site that answers nobody would pass an empty table";
 }
 
@@ -127,16 +127,18 @@ TEST(AccessMatrix, RoutesWithoutAnActionAreThoseOfNoSecret) {
                                                  "/logout",      "/attempts",      "/metrics",   "/answer",
                                                  "/answer/form", "/answer/thanks", "/answer.js", "/rate",
                                                  "/rate/bench",  "/rate/replay",   "/replay.js", "/openapi.json",
-                                                 "/board",       "/film.js",       "/tables.js", "/password"}))
+                                                 "/board",       "/film.js",       "/tables.js", "/password",
+                                                 "/icon.svg",    "/prometheus"}))
       << "a new route names its action";
 }
 
 TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
   FakeSite fake;
   FakeBrowser browser(*fake.site);
-  const std::set<std::string_view> open = {
-      "/healthz",   "/style.css",    "/login", "/answer",  "/answer/thanks", "/answer.js", "/rate",
-      "/replay.js", "/openapi.json", "/board", "/film.js", "/tables.js",     "/password"};
+  const std::set<std::string_view> open = {"/healthz",       "/style.css", "/login",     "/answer",
+                                           "/answer/thanks", "/answer.js", "/rate",      "/replay.js",
+                                           "/openapi.json",  "/board",     "/film.js",   "/tables.js",
+                                           "/password",      "/icon.svg",  "/prometheus"};
   for (const Route& route : routes()) {
     if (route.method != "GET") continue;
     for (const std::string& id : {kOwnAttempt, kMissingAttempt}) {

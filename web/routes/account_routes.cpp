@@ -1,6 +1,7 @@
 // Accounts: invitations and one-time links to set a password, made by an admin and used by whoever has them.
 #include "casedb/database/credentials.h"
 #include "reports/pages/people/accounts_page.h"
+#include "web/json/lists_json.h"
 #include "web/routes/shelves.h"
 #include "web/site/site.h"
 
@@ -17,6 +18,10 @@ Response accounts(Site& site, const Call& call, int status, const std::optional<
 
 Response list_accounts(Site& site, const Call& call) {
   return accounts(site, call, 200, {}, "");
+}
+
+Response list_accounts_json(Site& site, const Call&) {
+  return json_response(accounts_json(site.questions.list_accounts()));
 }
 
 // As the browser reached us.
@@ -74,6 +79,7 @@ Response set_password(Site& site, const Call& call) {
 constexpr Route kAccountRoutes[] = {
     {"GET", "/accounts", Action::manage_accounts, true, "", "who has an account; invitations and one-time links",
      list_accounts},
+    {"GET", "/accounts.json", Action::manage_accounts, false, "", "who has an account", list_accounts_json},
     {"POST", "/accounts", Action::manage_accounts, true, "",
      "makes a one-time link to set a password and shows it once: person, or name and role of somebody new; token",
      make_link, Lane::log_in},

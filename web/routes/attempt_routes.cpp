@@ -8,6 +8,7 @@
 #include "reports/pages/attempts_page.h"
 #include "reports/pages/style_sheet.h"
 #include "web/json/attempt_json.h"
+#include "web/json/lists_json.h"
 #include "web/json/replay_json.h"
 #include "web/json/skin_json.h"
 #include "web/routes/said.h"
@@ -39,10 +40,14 @@ std::size_t wanted_page(const Request& request, std::size_t pages) {
   return std::clamp<std::size_t>(page, 1, pages);
 }
 
-Response list_attempts(Site& site, const Call& call) {
+// What a reader sees of the list.
+struct AttemptList {
+  std::vector<reports::AttemptView> views;
+  reports::ListPart part;
+};
+
+AttemptList visible_attempts(Site& site, const Call& call) {
   const casedb::Account& account = call.reader->account;
-  if (!casedb::roles_that_may(casedb::Action::see_attempt).has(account.role))
-    return html_response(200, reports::no_attempts_page(call.reader->visitor()));
   const Relations relations = site.questions.relations_of(account.person_id);
   const casedb::WhoseAttempts seen = attempts_seen(account.role, relations);
   const std::size_t total = site.questions.count_attempts(seen);
@@ -68,8 +73,19 @@ Response list_attempts(Site& site, const Call& call) {
   }
   const std::vector<assessment::Grade> grades = site.questions.grades_of(rows);
   for (std::size_t i = 0; i < views.size(); ++i) views[i].grade.grade = grades.at(i);
-  const reports::ListPart part{page, pages, total, account.role == casedb::Role::trainee};
-  return list_response(reports::attempts_page(call.reader->visitor(), views, part));
+  return {std::move(views), {page, pages, total, account.role == casedb::Role::trainee}};
+}
+
+Response list_attempts(Site& site, const Call& call) {
+  if (!casedb::roles_that_may(Action::see_attempt).has(call.reader->account.role))
+    return html_response(200, reports::no_attempts_page(call.reader->visitor()));
+  const AttemptList list = visible_attempts(site, call);
+  return list_response(reports::attempts_page(call.reader->visitor(), list.views, list.part));
+}
+
+Response list_attempts_json(Site& site, const Call& call) {
+  const AttemptList list = visible_attempts(site, call);
+  return json_response(attempts_json(list.views, list.part));
 }
 
 // The attempt when it exists and this reader may see it. Both are asked before either is answered.
@@ -231,6 +247,7 @@ Response show_grade(Site& site, const Call& call) {
 constexpr Route kAttemptRoutes[] = {
     {"GET", "/replay.js", kOpen, false, "", "the script that draws the replay", show_replay_script},
     {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
+    {"GET", "/attempts.json", Action::see_attempt, false, kSeen, "the same list; ?page=N", list_attempts_json},
     {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
      "one attempt: debrief, criteria, metrics, picture, course", show_attempt},
     {"GET", "/attempts/{attempt_id}/picture.png", Action::see_attempt, false, kSeen,

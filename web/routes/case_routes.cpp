@@ -3,6 +3,7 @@
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/metrics_page.h"
 #include "web/json/case_json.h"
+#include "web/json/lists_json.h"
 #include "web/routes/shelves.h"
 #include "web/site/access.h"
 #include "web/site/site.h"
@@ -16,14 +17,22 @@ constexpr std::string_view kCurricula =
 constexpr std::string_view kCases =
     "mentor: all; director: no drafts; researcher, admin: published and retired, without reviewers' notes";
 
-Response list_cases(Site& site, const Call& call) {
+std::vector<casedb::CaseRow> visible_cases(Site& site, const Call& call) {
   std::vector<casedb::CaseRow> seen;
   for (casedb::CaseRow& row : site.questions.list_cases())
     if (may_see_case(call.reader->account.role, row)) {
       withhold(call.reader->account.role, row);
       seen.push_back(std::move(row));
     }
-  return list_response(reports::cases_page(call.reader->visitor(), seen));
+  return seen;
+}
+
+Response list_cases(Site& site, const Call& call) {
+  return list_response(reports::cases_page(call.reader->visitor(), visible_cases(site, call)));
+}
+
+Response list_cases_json(Site& site, const Call& call) {
+  return json_response(cases_json(visible_cases(site, call)));
 }
 
 std::optional<casedb::CaseParts> visible_case(Site& site, const Call& call) {
@@ -63,21 +72,34 @@ Response list_metrics(Site&, const Call& call) {
   return html_response(200, reports::metrics_page(call.reader->visitor()));
 }
 
-Response list_curricula(Site& site, const Call& call) {
+std::vector<reports::CurriculumView> visible_curricula(Site& site, const Call& call) {
   const casedb::Account& account = call.reader->account;
   const bool own = account.role == casedb::Role::trainee;
   auto views = site.questions.list_curricula(own ? std::optional(account.person_id) : std::nullopt);
   std::erase_if(views, [&](const auto& one) { return !may_see_curriculum(account.role, one.curriculum); });
   for (auto& view : views)
     for (casedb::ItemState& item : view.items) withhold(account.role, item);
-  return html_response(200, reports::curricula_page(call.reader->visitor(), views, site.questions.dependability()));
+  return views;
+}
+
+Response list_curricula(Site& site, const Call& call) {
+  return html_response(200, reports::curricula_page(call.reader->visitor(), visible_curricula(site, call),
+                                                    site.questions.dependability()));
+}
+
+Response list_curricula_json(Site& site, const Call& call) {
+  return json_response(
+      curricula_json(visible_curricula(site, call), call.reader->account.role == casedb::Role::trainee));
 }
 
 constexpr Route kCaseRoutes[] = {
     {"GET", "/metrics", kAnyRole, true, "", "what each metric measures; #metric-ID", list_metrics},
     {"GET", "/curricula", Action::see_curriculum, true, kCurricula, "items, gates, and how far the trainee is",
      list_curricula},
+    {"GET", "/curricula.json", Action::see_curriculum, false, kCurricula,
+     "the same: items, gates, and how many attempts they allow", list_curricula_json},
     {"GET", "/cases", Action::see_case, true, kCases, "the list, oldest first", list_cases},
+    {"GET", "/cases.json", Action::see_case, false, kCases, "the same list", list_cases_json},
     {"GET", "/cases/{case_id}", Action::see_case, true, kCases,
      "one case: state, version, who reviewed it, needle, patient, structures, rule", show_case},
     {"GET", "/cases/{case_id}/case.json", Action::see_case, false, kCases, "as `case show` prints it",

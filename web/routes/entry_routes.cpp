@@ -32,6 +32,10 @@ Response style(Site&, const Call&) {
   return {.content_type = "text/css; charset=utf-8", .body = std::string(reports::style_sheet())};
 }
 
+Response icon(Site&, const Call&) {
+  return {.content_type = "image/svg+xml", .body = std::string(reports::icon())};
+}
+
 Response tables_script(Site&, const Call&) {
   return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::tables_script())};
 }
@@ -113,6 +117,7 @@ constexpr Route kEntryRoutes[] = {
     {"GET", "/healthz", kOpen, false, "",
      "`ok`, `moved`, `full` or `read_only` (503) as the library is, and the version, as JSON", healthz},
     {"GET", "/style.css", kOpen, false, "", "the style sheet", style},
+    {"GET", "/icon.svg", kOpen, false, "", "the icon of the pages", icon},
     {"GET", "/tables.js", kOpen, false, "", "the script that orders and narrows lists", tables_script},
     {"GET", "/login", kOpen, true, "", "the log-in form", show_login},
     {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in, Lane::log_in},

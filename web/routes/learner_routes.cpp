@@ -3,6 +3,7 @@
 
 #include "reports/pages/people/learner_page.h"
 #include "reports/pages/people/learners_page.h"
+#include "web/json/lists_json.h"
 #include "web/routes/learners.h"
 #include "web/routes/shelves.h"
 #include "web/site/site.h"
@@ -50,13 +51,30 @@ Response show_learner(Site& site, const Call& call, const std::string& person_id
                                  site.surroundings.utc_us()));
 }
 
-// Who learns themselves sees that, who answers for others sees these.
-Response show_progress(Site& site, const Call& call) {
+Response show_learner_json(Site& site, const Call& call, const std::string& person_id) {
+  const auto view = visible_learner(site, *call.reader, person_id);
+  return view ? json_response(learner_json(*view, site.surroundings.utc_us())) : refusal(404, call.reader);
+}
+
+bool learns(const Call& call) {
   casedb::Relation own;
   own.own = true;
-  return casedb::may(call.reader->account.role, Action::see_progress, own)
-             ? show_learner(site, call, call.reader->account.person_id)
-             : list_learners(site, call);
+  return casedb::may(call.reader->account.role, Action::see_progress, own);
+}
+
+// Who learns themselves sees that, who answers for others sees these.
+Response show_progress(Site& site, const Call& call) {
+  return learns(call) ? show_learner(site, call, call.reader->account.person_id) : list_learners(site, call);
+}
+
+Response show_progress_json(Site& site, const Call& call) {
+  return learns(call)
+             ? show_learner_json(site, call, call.reader->account.person_id)
+             : json_response(learners_json(visible_learners(site, *call.reader), site.surroundings.utc_us()));
+}
+
+Response show_that_learner_json(Site& site, const Call& call) {
+  return show_learner_json(site, call, call.id);
 }
 
 Response show_that_learner(Site& site, const Call& call) {
@@ -77,8 +95,12 @@ constexpr Route kLearnerRoutes[] = {
      "what "
      "keeps them; ?curriculum=ID&cohort=TITLE&standing=STATE",
      show_progress},
+    {"GET", "/progress.json", Action::see_progress, false, kWhoseProgress,
+     "trainee: how far they are, attempt by attempt; others: where each stands", show_progress_json},
     {"GET", "/progress/{person_id}", Action::see_progress, true, kWhoseProgress,
      "one learner: where they stand by which rule, item by item, and how they learn", show_that_learner},
+    {"GET", "/progress/{person_id}/progress.json", Action::see_progress, false, kWhoseProgress,
+     "the same, attempt by attempt", show_that_learner_json},
     {"GET", "/progress/{person_id}/record", Action::see_progress, true, kWhoseProgress,
      "the same as a record to print and sign", show_record},
 };

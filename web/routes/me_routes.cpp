@@ -3,6 +3,7 @@
 #include <map>
 
 #include "reports/pages/me_page.h"
+#include "web/json/lists_json.h"
 #include "web/routes/shelves.h"
 #include "web/site/site.h"
 
@@ -46,6 +47,10 @@ Response me(Site& site, const Call& call, int status, const reports::Told& told)
 
 Response show_me(Site& site, const Call& call) {
   return me(site, call, 200, {.done = text_of(call.request.query)});
+}
+
+Response show_me_json(Site& site, const Call& call) {
+  return json_response(about_json(site.questions.about(call.reader->account.person_id)));
 }
 
 Response problem(Site& site, const Call& call, const std::string& text) {
@@ -92,6 +97,7 @@ Response erase_own(Site& site, const Call& call) {
 
 constexpr Route kMeRoutes[] = {
     {"GET", "/me", Action::answer_consent, true, kSelf, "consent, facts, deletion", show_me},
+    {"GET", "/me.json", Action::answer_consent, false, kSelf, "consents and facts", show_me_json},
     {"POST", "/me/consent", Action::answer_consent, true, kSelf, "gives or withdraws: text, answer, delete, token",
      answer_consent, Lane::changes},
     {"POST", "/me/facts", Action::answer_consent, true, kSelf, "gives facts: one field each, token", give_facts,

@@ -15,6 +15,8 @@ std::string content_of(std::string_view pattern) {
                                   {".png", "image/png"},
                                   {".css", "text/css"},
                                   {".js", "text/javascript"},
+                                  {".svg", "image/svg+xml"},
+                                  {"/prometheus", "text/plain"},
                                   {"/healthz", "application/json"}})
     if (pattern.ends_with(end)) return type;
   return "text/html";

@@ -5,6 +5,7 @@
 #include "reports/pages/log_ins_page.h"
 #include "reports/words/attempt_words.h"
 #include "sim/base/failure.h"
+#include "web/json/lists_json.h"
 #include "web/routes/shelves.h"
 #include "web/site/access.h"
 #include "web/site/site.h"
@@ -14,7 +15,7 @@ namespace {
 
 using casedb::Action;
 
-Response list_cohorts(Site& site, const Call& call) {
+std::vector<reports::CohortView> visible_cohorts(Site& site, const Call& call) {
   const casedb::Role role = call.reader->account.role;
   const Relations relations = site.questions.relations_of(call.reader->account.person_id);
   std::map<std::string, std::string> names;
@@ -43,15 +44,31 @@ Response list_cohorts(Site& site, const Call& call) {
     }
     views.push_back(std::move(view));
   }
-  return list_response(reports::cohorts_page(call.reader->visitor(), views));
+  return views;
 }
 
-Response show_log_ins(Site& site, const Call& call) {
+Response list_cohorts(Site& site, const Call& call) {
+  return list_response(reports::cohorts_page(call.reader->visitor(), visible_cohorts(site, call)));
+}
+
+Response list_cohorts_json(Site& site, const Call& call) {
+  return json_response(cohorts_json(visible_cohorts(site, call)));
+}
+
+std::vector<reports::DelayedLogIn> delayed_log_ins(Site& site) {
   std::vector<reports::DelayedLogIn> delayed;
   for (const casedb::Account& one : site.questions.list_accounts())
     if (const auto wait_s = site.delays.longest_wait_s(one.login_name, site.surroundings.now_us()); wait_s > 0)
       delayed.push_back({one.person_id, one.login_name, wait_s});
-  return html_response(200, reports::log_ins_page(call.reader->visitor(), delayed));
+  return delayed;
+}
+
+Response show_log_ins(Site& site, const Call& call) {
+  return html_response(200, reports::log_ins_page(call.reader->visitor(), delayed_log_ins(site)));
+}
+
+Response show_log_ins_json(Site& site, const Call&) {
+  return json_response(log_ins_json(delayed_log_ins(site)));
 }
 
 Response let_in_again(Site& site, const Call& call) {
@@ -68,11 +85,16 @@ Response let_in_again(Site& site, const Call& call) {
   return redirect("/log-ins");
 }
 
+constexpr std::string_view kWhoseCohorts =
+    "mentor: own cohorts by name; director: own programmes by name, of others counts of at least 5 people";
+
 constexpr Route kPeopleRoutes[] = {
-    {"GET", "/cohorts", Action::see_cohort, true,
-     "mentor: own cohorts by name; director: own programmes by name, of others counts of at least 5 people",
+    {"GET", "/cohorts", Action::see_cohort, true, kWhoseCohorts,
      "who is in which cohort, and what they did together", list_cohorts},
+    {"GET", "/cohorts.json", Action::see_cohort, false, kWhoseCohorts, "the same; null is withheld",
+     list_cohorts_json},
     {"GET", "/log-ins", Action::let_in_again, true, "", "who has to wait before the next try", show_log_ins},
+    {"GET", "/log-ins.json", Action::let_in_again, false, "", "the same", show_log_ins_json},
     {"POST", "/log-ins", Action::let_in_again, true, "", "lets somebody try again at once: person, token",
      let_in_again, Lane::changes},
 };

@@ -1,4 +1,5 @@
 // Studies, for who works on them.
+#include "web/json/lists_json.h"
 #include "web/routes/shelves.h"
 #include "web/routes/studies.h"
 
@@ -17,11 +18,21 @@ Response list_studies(Site& site, const Call& call) {
   return html_response(200, reports::studies_page(call.reader->visitor(), studies_of(site, *call.reader)));
 }
 
+Response list_studies_json(Site& site, const Call& call) {
+  return json_response(studies_json(studies_of(site, *call.reader)));
+}
+
 Response show_study(Site& site, const Call& call) {
   if (!works_on(site, call, Action::plan_study, call.id)) return refusal(404, call.reader);
   const auto view = site.questions.find_study(call.id);
   if (!view) return refusal(404, call.reader);
   return list_response(reports::study_page(call.reader->visitor(), *view));
+}
+
+Response show_study_json(Site& site, const Call& call) {
+  if (!works_on(site, call, Action::plan_study, call.id)) return refusal(404, call.reader);
+  const auto view = site.questions.find_study(call.id);
+  return view ? json_response(study_json(*view)) : refusal(404, call.reader);
 }
 
 // A file of its own, which opens without this server.
@@ -37,8 +48,11 @@ Response make_report(Site& site, const Call& call) {
 
 constexpr Route kStudyRoutes[] = {
     {"GET", "/studies", Action::plan_study, true, kOwnStudies, "the list, oldest first", list_studies},
+    {"GET", "/studies.json", Action::plan_study, false, kOwnStudies, "the same list", list_studies_json},
     {"GET", "/studies/{study_id}", Action::plan_study, true, kOwnStudies,
      "one study: its plan, who takes part by pseudonym, how far they are, who has looked; no outcome", show_study},
+    {"GET", "/studies/{study_id}/study.json", Action::plan_study, false, kOwnStudies, "the same; no outcome",
+     show_study_json},
     {"POST", "/studies/{study_id}/report", Action::plan_study, true, kOwnStudies,
      "its validity report as a file; of a frozen plan that is a look, and noted: token", make_report,
      Lane::changes},

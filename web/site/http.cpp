@@ -108,6 +108,10 @@ Response list_response(std::string body) {
   return response;
 }
 
+Response json_response(std::string body) {
+  return {.content_type = "application/json", .body = std::move(body)};
+}
+
 Response redirect(std::string_view path) {
   return {.status = 303, .headers = {{"Location", std::string(path)}}};
 }

@@ -37,6 +37,7 @@ struct Response {
 
 Response html_response(int status, std::string body);
 Response list_response(std::string body);  // 200, of a page of lists
+Response json_response(std::string body);
 Response redirect(std::string_view path);  // 303: the browser asks again with GET
 
 // Overwrites what may be secret: bodies, cookies.

@@ -155,7 +155,7 @@ std::optional<Reader> Site::reader_of(const Request& request) {
   return Reader{*account, session->form_token};
 }
 
-Response Site::route(const Request& request) {
+Response Site::route(const Request& request, std::string_view& pattern) {
   const std::string host = request.header("host");
   const bool proxied = !surroundings.public_authority.empty() && host == surroundings.public_authority;
   if (!proxied && !is_loopback_host_header(host)) return refusal(421, nullptr);
@@ -169,6 +169,7 @@ Response Site::route(const Request& request) {
     allowed += candidate.method == "GET" ? "GET, HEAD" : candidate.method;
     if (candidate.method == method) found = &candidate;
   }
+  if (found != nullptr) pattern = found->pattern;
   const bool is_change = method == "POST";
   if (found != nullptr && is_change && !is_same_origin(request, surroundings.public_authority))
     return refusal(403, nullptr);
@@ -200,22 +201,30 @@ Response Site::route(const Request& request) {
 }
 
 Response Site::answer(const Request& request) noexcept {
+  std::string_view pattern;
   try {
-    try {
-      Response response = route(request);
-      // A browser that came by TLS sends its cookies by TLS alone.
-      if (!surroundings.public_authority.empty() && request.header("host") == surroundings.public_authority)
-        for (auto& [name, value] : response.headers)
-          if (name == "Set-Cookie") value += "; Secure";
-      return response;
-    } catch (const base::Failure& failure) {
-      return fault(503, nullptr, failure.code() + ": " + failure.what());
-    } catch (const std::exception&) {
-      // Its text may hold anything, so it goes nowhere.
-      return fault(500, nullptr, "internal: a page could not be made");
-    }
+    const std::int64_t begun_us = surroundings.now_us();
+    Response response = answer(request, pattern);
+    tally.add(pattern, response.status, surroundings.now_us() - begun_us);
+    return response;
   } catch (...) {
     return plain_error(500);
+  }
+}
+
+Response Site::answer(const Request& request, std::string_view& pattern) {
+  try {
+    Response response = route(request, pattern);
+    // A browser that came by TLS sends its cookies by TLS alone.
+    if (!surroundings.public_authority.empty() && request.header("host") == surroundings.public_authority)
+      for (auto& [name, value] : response.headers)
+        if (name == "Set-Cookie") value += "; Secure";
+    return response;
+  } catch (const base::Failure& failure) {
+    return fault(503, nullptr, failure.code() + ": " + failure.what());
+  } catch (const std::exception&) {
+    // Its text may hold anything, so it goes nowhere.
+    return fault(500, nullptr, "internal: a page could not be made");
   }
 }
 

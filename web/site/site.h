@@ -14,6 +14,7 @@
 #include "web/site/security_log.h"
 #include "web/site/sessions.h"
 #include "web/site/surroundings.h"
+#include "web/site/tally.h"
 
 namespace seldinger::web {
 
@@ -50,6 +51,7 @@ class Site {
   casedb::LoginDelays delays;
   SecurityLog security;
   Answers answers;  // heavy ones
+  Tally tally;
 
   // Writes who is logged in for the next start, as far as the library does not know it. Throws where it cannot.
   void keep_sessions();
@@ -69,7 +71,9 @@ class Site {
   Response fault(int status, const Reader* reader, const std::string& what) const;
 
  private:
-  Response route(const Request& request);
+  // In both `pattern` is filled with that of the route that answers.
+  Response answer(const Request& request, std::string_view& pattern);
+  Response route(const Request& request, std::string_view& pattern);
   std::optional<Reader> reader_of(const Request& request);
 
   const std::span<const Route> routes_;
