@@ -10,6 +10,7 @@
 #include "casedb/database/disk.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
+#include "reports/export/data_package_json.h"
 #include "reports/export/raw_tables.h"
 #include "sim/base/hex.h"
 
@@ -242,8 +243,11 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
   steps.close();
   if (events) events->close();
   write_whole(at / "data_dictionary.csv", data_dictionary());
+  std::vector<std::string> tables{"attempts.csv", "metrics.csv", "steps.csv", "facts.csv"};
+  if (choice.events) tables.emplace_back("events.csv");
+  write_whole(at / "datapackage.json", data_package(tables));
   write_whole(at / "README.txt", raw_readme());
-  sum.files += choice.events ? 7 : 6;
+  sum.files += choice.events ? 8 : 7;
   if (!folder.keep()) return base::Error{"exists", "there is already something of that name"};
   parents.keep();
   return sum;
