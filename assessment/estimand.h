@@ -5,10 +5,15 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "assessment/metrics/metric.h"
 
 namespace seldinger::assessment {
+
+// Beside the metric that is asked for, what decides how an attempt counts: these, and whether any metric has no
+// value for want of an endpoint.
+inline constexpr std::string_view kMetricsThatCount[] = {"procedure_performed", "skin_punctures", "decision_right"};
 
 // Whether an attempt counts among those that are compared: it was performed, or nobody measured whether (stored
 // before procedure_performed was).

@@ -254,8 +254,12 @@ std::string text_of_recovery(const std::string& of, const std::vector<RecoverySe
       "it "
       "is asked.\n";
   for (const RecoverySection& one : sections) {
-    text += "\n## " + one.title + "\n\n" + one.words +
-            "\n\n| | planted | found | 95 % | holds |\n|---|---|---|---|---|\n";
+    text += "\n## " + one.title + "\n\n" + one.words + "\n";
+    if (one.numbers.empty()) {
+      text += "\nNothing could be estimated.\n";
+      continue;
+    }
+    text += "\n| | planted | found | 95 % | holds |\n|---|---|---|---|---|\n";
     for (const PlantedNumber& number : one.numbers) {
       const auto held = number.held();
       text += "| " + number.what + " | " + number_cell(number.planted) +

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -91,7 +93,11 @@ std::vector<AttemptRow> list_attempts(Library& library, const WhoseAttempts& who
                                       std::size_t count);
 std::size_t count_attempts(Library& library, const WhoseAttempts& whose);
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
-std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id);    // newest first
+// The same without metrics; and with these alone, beside each that has no value for want of an endpoint.
+std::vector<AttemptRow> list_bare_attempts_of(Library& library, const std::string& person_id);
+std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id,
+                                         const std::set<std::string>& metrics);
+std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id);  // newest first
 // Those on a case whose values may make a band: of people who were consultants when they began, or of the simulated
 // expert (of that the newest 200); newest first.
 std::vector<AttemptRow> list_expert_attempts(Library& library, const std::string& case_id,
@@ -102,6 +108,8 @@ base::Result<cases::Recording> load_recording(Library& library, const std::strin
 std::vector<assessment::StepResult> list_steps(Library& library, const std::string& attempt_id);
 // Nothing of it is known of attempts from before schema 13.
 Conditions find_conditions(Library& library, const std::string& attempt_id);
+// What led the needle in a person's attempts, where it is known.
+std::map<std::string, cases::HandKind> needle_hands_of(Library& library, const std::string& person_id);
 std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id);
 // Those whose version is not there yet: older values are kept. How many; `no_attempt`.
 base::Result<std::size_t> add_metrics(Library& library, const std::string& attempt_id,

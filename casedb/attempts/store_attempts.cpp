@@ -89,13 +89,16 @@ AttemptRow read_attempt(const Statement& from) {
 
 // `attempts` and `metrics` are the two questions with their parameters; metrics come by attempt, metric and
 // version.
-std::vector<AttemptRow> read_attempts(Statement attempts, Statement metrics) {
+std::vector<AttemptRow> read_bare(Statement attempts) {
   std::vector<AttemptRow> rows;
+  while (attempts.step()) rows.push_back(read_attempt(attempts));
+  return rows;
+}
+
+std::vector<AttemptRow> read_attempts(Statement attempts, Statement metrics) {
+  std::vector<AttemptRow> rows = read_bare(std::move(attempts));
   std::unordered_map<std::string, std::size_t> place;
-  while (attempts.step()) {
-    rows.push_back(read_attempt(attempts));
-    place.emplace(rows.back().attempt_id, rows.size() - 1);
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i) place.emplace(rows[i].attempt_id, i);
   struct Positioned {
     std::int64_t position;
     MetricValue value;
@@ -309,6 +312,24 @@ std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& pe
   return read_attempts(std::move(attempts), std::move(metrics));
 }
 
+std::vector<AttemptRow> list_bare_attempts_of(Library& library, const std::string& person_id) {
+  Statement attempts = question(library.database(), "attempts_of_person");
+  attempts.bind("person_id", person_id);
+  return read_bare(std::move(attempts));
+}
+
+std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id,
+                                         const std::set<std::string>& metrics) {
+  Sqlite& database = library.database();
+  Statement attempts = question(database, "attempts_of_person");
+  Statement values = question(database, "metric_values_of_person_among");
+  std::string names = " ";
+  for (const std::string& one : metrics) names += one + " ";
+  attempts.bind("person_id", person_id);
+  values.bind("person_id", person_id).bind("metrics", names);
+  return read_attempts(std::move(attempts), std::move(values));
+}
+
 std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id) {
   Sqlite& database = library.database();
   Statement attempts = question(database, "attempts_on_case"),
@@ -355,6 +376,15 @@ base::Result<cases::Recording> load_recording(Library& library, const std::strin
   if (static_cast<std::int64_t>(chunks.size()) != expected)
     return base::Error{"incomplete", "a piece of the recording is missing"};
   return cases::recording_from_chunks(chunks);
+}
+
+std::map<std::string, cases::HandKind> needle_hands_of(Library& library, const std::string& person_id) {
+  std::map<std::string, cases::HandKind> hands;
+  Statement rows = question(library.database(), "needle_hands_of_person");
+  for (rows.bind("person_id", person_id); rows.step();)
+    if (const auto hand = base::from_name(cases::kHandKindNames, rows.view("words")))
+      hands.emplace(rows.text("attempt_id"), *hand);
+  return hands;
 }
 
 }  // namespace seldinger::casedb

@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 
+#include "assessment/estimand.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/sqlite.h"
@@ -36,9 +37,14 @@ std::string cut_off_words(const AttemptRow& row) {
   return {};
 }
 
-std::string hand_of(Library& library, const AttemptRow& row) {
-  const auto hand = find_conditions(library, row.attempt_id).needle_hand;
-  return hand ? std::string(base::name_of(cases::kHandKindNames, *hand)) : std::string();
+// Metrics that the analysis looks at.
+std::set<std::string> metrics_of(const study::Plan& plan) {
+  std::set<std::string> metrics;
+  for (const std::string_view one : assessment::kMetricsThatCount) metrics.emplace(one);
+  for (const auto* outcomes : {&plan.primary, &plan.secondary})
+    for (const study::Outcome& one : *outcomes) metrics.insert(one.metric);
+  for (const study::Exclusion& one : plan.exclusions) metrics.insert(one.metric);
+  return metrics;
 }
 
 std::string digits_of_value(double value) {
@@ -54,7 +60,7 @@ StudyData study_data(Library& library, const StoredPlan& stored) {
   data.flow.consenting = consenting_people(library, stored.study_id).size();
   data.flow.ever_enrolled = count_ever_enrolled(library, stored.study_id);
   for (const study::PlannedGroup& group : stored.plan.groups) data.flow.groups.push_back({group.name, 0, 0, 0, 0});
-  const std::set<std::string> cases = cases_of(stored.plan);
+  const std::set<std::string> cases = cases_of(stored.plan), metrics = metrics_of(stored.plan);
   std::size_t known = 0;
   for (const StudyEnrolment& one : list_study_enrolments(library, stored.study_id)) {
     ++known;
@@ -68,11 +74,16 @@ StudyData study_data(Library& library, const StoredPlan& stored) {
     }
     study::StudyPerson person{one.pseudonym, one.group, {}};
     bool attempted = false;
-    for (const AttemptRow& row : list_attempts_of(library, one.person_id)) {
+    const auto hands = needle_hands_of(library, one.person_id);
+    for (const AttemptRow& row : list_attempts_of(library, one.person_id, metrics)) {
       if (!cases.contains(row.case_id)) continue;
       attempted = attempted || is_of_plan(stored.plan, cases, row);
-      person.attempts.push_back({row.case_id, static_cast<double>(row.started_us - one.enrolled_us) / kStudyDayUs,
-                                 row.synthetic(), cut_off_words(row), hand_of(library, row), every_version(row)});
+      const auto hand = hands.find(row.attempt_id);
+      person.attempts.push_back(
+          {row.case_id, static_cast<double>(row.started_us - one.enrolled_us) / kStudyDayUs, row.synthetic(),
+           cut_off_words(row),
+           hand == hands.end() ? std::string() : std::string(base::name_of(cases::kHandKindNames, hand->second)),
+           every_version(row)});
     }
     flow->attempted += attempted ? 1U : 0U;
     data.people.push_back(std::move(person));
@@ -108,7 +119,7 @@ BlindedCounts blinded_counts(Library& library, const StoredPlan& stored) {
   BlindedCounts counts;
   for (const std::string& person_id : consenting_people(library, stored.study_id)) {
     ++counts.consenting;
-    const auto rows = list_attempts_of(library, person_id);
+    const auto rows = list_bare_attempts_of(library, person_id);
     const auto attempts = static_cast<std::size_t>(std::count_if(
         rows.begin(), rows.end(), [&](const AttemptRow& row) { return is_of_plan(stored.plan, cases, row); }));
     counts.attempts += attempts;

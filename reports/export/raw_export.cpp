@@ -10,7 +10,9 @@
 #include "casedb/database/disk.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
+#include "reports/export/data_package_json.h"
 #include "reports/export/raw_tables.h"
+#include "reports/export/redcap.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::reports {
@@ -242,8 +244,12 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
   steps.close();
   if (events) events->close();
   write_whole(at / "data_dictionary.csv", data_dictionary());
+  std::vector<std::string> tables{"attempts.csv", "metrics.csv", "steps.csv", "facts.csv"};
+  if (choice.events) tables.emplace_back("events.csv");
+  write_whole(at / "datapackage.json", data_package(tables));
+  write_whole(at / "redcap_dictionary.csv", redcap_dictionary());
   write_whole(at / "README.txt", raw_readme());
-  sum.files += choice.events ? 7 : 6;
+  sum.files += choice.events ? 9 : 8;
   if (!folder.keep()) return base::Error{"exists", "there is already something of that name"};
   parents.keep();
   return sum;

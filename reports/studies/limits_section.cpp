@@ -23,7 +23,9 @@ std::vector<Question> questions_of(const ValidityReport& report) {
   std::vector<Question> all;
   all.push_back({"Was the plan made before the data were seen?",
                  "It was frozen on " + utc_text(*report.plan.frozen_us) + " with the hash below; " +
-                     std::to_string(report.looks.size()) + " looks since are listed, this report among them."});
+                     (report.looks.size() == 1 ? std::string("this report is the only look since.")
+                                               : std::to_string(report.looks.size()) +
+                                                     " looks since are listed, this report among them.")});
   all.push_back({"How was the number of people chosen?",
                  std::to_string(plan.per_group) + " in each group: " + plan.stopping_rule});
   all.push_back({"Are attempts counted as if they were people?",

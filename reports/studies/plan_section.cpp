@@ -65,6 +65,11 @@ Html plan_section(const ValidityReport& report) {
       html, "No attempt",
       (plan.absent == study::Absent::failure ? std::string("counts as a failure: ") : std::string("left out: ")) +
           plan.missing_why);
+  if (plan.imputations > 0)
+    add_plan_row(html, "Imputed", "absent people, of means, in " + std::to_string(plan.imputations) + " draws");
+  for (const study::Outcome& one : plan.primary)
+    if (!one.impute_from.empty())
+      add_plan_row(html, "Imputed from", "“" + one.name + "” from “" + one.impute_from + "”");
   for (const study::Exclusion& one : plan.exclusions)
     add_plan_row(html, "Attempt left out",
                  one.metric + " " + std::string(assessment::sign_of(one.comparison)) + " " +

@@ -13,7 +13,7 @@ ValidityReport validity_report_of(casedb::Library& library, const casedb::Study&
   report.plan = plan;
   report.program_version = program_version;
   for (const casedb::CaseRow& row : casedb::list_case_heads(library)) report.case_titles[row.case_id] = row.title;
-  report.blinded = casedb::blinded_counts(library, plan);
+  if (!plan.frozen()) report.blinded = casedb::blinded_counts(library, plan);
   if (plan.frozen()) {
     casedb::StudyData data = casedb::study_data(library, plan);
     report.result = assessment::study::analyse(report.plan.plan, data.people);

@@ -176,8 +176,9 @@ TEST(RawExport, WhatWasSimulatedIsNobodysAlsoInSomebodysName) {
   }
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(made().at("tables"))) files.insert(entry.path().filename());
-  EXPECT_EQ(files, (std::set<std::string>{"attempts.csv", "metrics.csv", "steps.csv", "facts.csv",
-                                          "data_dictionary.csv", "README.txt"}));
+  EXPECT_EQ(files,
+            (std::set<std::string>{"attempts.csv", "metrics.csv", "steps.csv", "facts.csv", "data_dictionary.csv",
+                                   "datapackage.json", "redcap_dictionary.csv", "README.txt"}));
 }
 
 TEST(RawExport, NamesAreOfOneExportUnlessThereIsAKey) {

@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <map>
 
+#include "assessment/estimand.h"
+#include "assessment/registry.h"
 #include "assessment/study/randomisation.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/digests.h"
@@ -256,6 +258,40 @@ TEST_F(StudiesTest, TheAnalysisIsOfWhoTakesPartAndStillConsents) {
   EXPECT_EQ(erased.unknown, 1U);
   EXPECT_EQ(erased.ever_enrolled, 6U);
   EXPECT_TRUE(damaged_values(library_.database()).empty());
+}
+
+// What is read of an attempt is what the plan asks about and what tells whether it fired: the same comes out of
+// all.
+TEST_F(StudiesTest, TheAnalysisReadsWhatDecidesIt) {
+  freeze(study::sample_plan_json());
+  const auto version = [](const char* id) { return assessment::find_metric(id)->version; };
+  const std::string nina = somebody("nina", {{"years_in_radiology", "1"}});
+  started_us_ = enrol_in_study(library_, study_id_, nina)->enrolled_us + 1;
+  attempt(nina, 3.0);
+  NewAttempt parked = sample_attempt(case_id_, lesion_id_);
+  parked.person_id = nina;
+  parked.operator_name = kPersonOperator;
+  parked.recording = sample_recording(50);
+  parked.started_us = started_us_ + 1;
+  parked.conditions.needle_hand = cases::HandKind::mouse;
+  parked.metrics = {{"procedure_performed", version("procedure_performed"), 1.0, "bool", ""},
+                    {"tip_target_surface", version("tip_target_surface"), {}, "mm", "no_endpoint"},
+                    {"skin_punctures", version("skin_punctures"), 0.0, "count", ""},
+                    {"path_tip", version("path_tip"), 2.0, "mm", ""},
+                    {"nogo_length", version("nogo_length"), 0.0, "mm", ""}};
+  ASSERT_TRUE(add_attempt(library_, parked));
+  const auto people = study_data(library_, *find_plan(library_, study_id_)).people;
+  ASSERT_EQ(people.size(), 1U);
+  ASSERT_EQ(people[0].attempts.size(), 2U);
+  const auto rows = list_attempts_of(library_, nina);
+  ASSERT_EQ(rows[0].metrics.size(), 5U);
+  EXPECT_EQ(people[0].attempts[0].metrics.size(), 4U) << "neither asked about nor without an endpoint";
+  EXPECT_EQ(people[0].attempts[0].hand, "mouse");
+  const assessment::MetricInfo& nogo = *assessment::find_metric("nogo_length");
+  EXPECT_EQ(assessment::contribution_of(nogo, people[0].attempts[0].metrics).counted,
+            assessment::contribution_of(nogo, rows[0].metrics).counted);
+  EXPECT_EQ(assessment::contribution_of(nogo, people[0].attempts[0].metrics).counted, assessment::Counted::left_out)
+      << "it was said to be deferred";
 }
 
 // Windows in days since the enrolment; an attempt counts on the first and the last of them.
