@@ -7,6 +7,7 @@
 #include "sim/base/check.h"
 #include "sim/case/c_arm.h"
 #include "sim/imaging/xray/c_arm.h"
+#include "sim/imaging/xray/contrast.h"
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/live_picture.h"
@@ -44,6 +45,7 @@ struct FluoroscopySight::Parts {
       : scene(case_of_sight),
         projector(scene.volume),
         moved(scene.volume),
+        contrast(scene.volume, tissue::Lumens(scene)),
         live(scene.volume, projector),
         beams(scene.fluoroscope),
         automatic(scene.fluoroscope) {}
@@ -51,6 +53,7 @@ struct FluoroscopySight::Parts {
   const cases::Case& scene;
   imaging::XrayCpu projector;
   imaging::MovedVolume moved;
+  imaging::ContrastMedium contrast;
   std::uint64_t moves = 0;  // how often `moved` changed
   imaging::LivePicture live;
   std::uint64_t live_tissue = 0;  // Tissue::version of what is in it
@@ -76,6 +79,13 @@ struct FluoroscopySight::Parts {
     if (tissue::count_sources(displacement) == 0) return {scene.volume, projector};
     if (moved.move(displacement, beam)) ++moves;
     return {moved.volume(), moved.projector(), moves};
+  }
+
+  // Of contrast medium on each pixel's ray; empty: there is none.
+  std::vector<float> contrast_in(const cases::State& state, const imaging::XrayGeometry& at,
+                                 const tissue::Displacement& displacement, int threads) {
+    if (!contrast.take(state.flow)) return {};
+    return contrast.lengths_mm(at, displacement, threads);
   }
 
   const imaging::PathLengths& meter_lengths(const cases::FluoroscopyState& machine, const imaging::XrayGeometry& at,
@@ -110,6 +120,7 @@ FluoroscopySight::Exposed FluoroscopySight::expose(const cases::State& state,
   Exposed exposed;
   imaging::PathLengths lengths = parts_->meter_lengths(machine, geometry, tissue);
   imaging::overlay_instruments(tissue.volume, geometry, inserted, imaging::ProjectionMethod::exact, lengths);
+  lengths.contrast_mm = parts_->contrast_in(state, geometry, displacement, 1);
   // Step decides between this and what is set by hand.
   exposed.report = imaging::meter(parts_->beams, parts_->automatic, pulse, lengths, cases::FluoroscopeInputs{});
   exposed.report.frame = machine.frames;
@@ -121,7 +132,8 @@ FluoroscopySight::Exposed FluoroscopySight::expose(const cases::State& state,
           imaging::kHandRadiusMm);
 
   const imaging::Visible visible =
-      imaging::xray_visible(tissue.volume, geometry, parts_->beams.at(machine.last_technique.kv), pulse, inserted);
+      imaging::xray_visible(tissue.volume, geometry, parts_->beams.at(machine.last_technique.kv), pulse, inserted,
+                            lengths.contrast_mm.empty() ? nullptr : &parts_->contrast.shown());
   exposed.truth = frame_truth(state.t_s, visible);
   exposed.truth.beam = cases::BeamTruth{machine.arm.lao_deg,
                                         machine.arm.cranial_deg,
@@ -159,6 +171,7 @@ GreyPicture FluoroscopySight::picture(const cases::State& state, std::uint64_t s
   parts_->live_tissue = tissue.version;
   const imaging::FluoroscopyPicture& picture = parts_->live.expose(
       geometry, machine.arm_moving, inserted_of(scene, state.needle, displacement),
+      parts_->contrast_in(state, geometry, displacement, settings.threads),
       parts_->beams.at(machine.last_technique.kv), parts_->beams.detector(),
       cases::field_side_mm(scene.fluoroscope, machine.magnification), pulse_of(machine), settings);
   return {picture.grey, picture.width_px, picture.height_px};

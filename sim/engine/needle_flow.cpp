@@ -1,9 +1,12 @@
 #include "sim/engine/needle_flow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+
+#include "sim/case/gauge.h"
 
 namespace seldinger::engine {
 namespace {
@@ -14,6 +17,16 @@ using cases::LumenContent;
 constexpr double kDepotMm = 5.0;   // contrast that comes out nearer than this to a depot joins it (design)
 constexpr double kTraceMl = 1e-3;  // less contrast than this is none
 constexpr double kMlPerM3 = 1e6, kMPerMm = 1e-3;
+
+// Of a needle that pictures show solid, its stylet being in, the bore of the gauge next to it.
+double bore_radius_mm(const cases::Instrument& needle) noexcept {
+  if (needle.inner_radius_mm > 0.0) return needle.inner_radius_mm;
+  const auto off_mm = [&](const cases::Gauge& gauge) { return std::abs(gauge.outer_mm - 2.0 * needle.radius_mm); };
+  const cases::Gauge& next =
+      *std::min_element(cases::kGauges.begin(), cases::kGauges.end(),
+                        [&](const cases::Gauge& a, const cases::Gauge& b) { return off_mm(a) < off_mm(b); });
+  return 0.5 * next.inner_mm;
+}
 
 bool is_empty(const cases::ContrastPool& pool) noexcept {
   return !(pool.contrast_ml > 0.0);
@@ -37,8 +50,8 @@ cases::ContrastPool& pool_for(std::int32_t lumen, const glm::dvec3& tip_lps_mm, 
 
 NeedleFlows::NeedleFlows(const cases::Case& scene) : lumens_(scene) {
   const cases::Instrument& needle = scene.instrument;
-  if (needle.kind != cases::InstrumentKind::access || !(needle.inner_radius_mm > 0.0)) return;
-  const double radius_m = needle.inner_radius_mm * kMPerMm, length_m = needle.length_mm * kMPerMm;
+  if (needle.kind != cases::InstrumentKind::access) return;
+  const double radius_m = bore_radius_mm(needle) * kMPerMm, length_m = needle.length_mm * kMPerMm;
   const double area_m2 = std::numbers::pi * radius_m * radius_m;
   bore_ml_ = area_m2 * length_m * kMlPerM3;
   conductance_m3_ = area_m2 * radius_m * radius_m / (8.0 * length_m);

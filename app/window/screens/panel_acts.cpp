@@ -38,7 +38,7 @@ bool asked_for(const Saying& saying, const cases::Case& scene) {
   if (saying.kind == EventKind::note_plan) return true;
   if (scene.subject == cases::Subject::phantom) return false;
   if (saying.kind == EventKind::stylet_out || saying.kind == EventKind::inject)
-    return scene.instrument.kind == cases::InstrumentKind::access && scene.instrument.inner_radius_mm > 0.0;
+    return scene.instrument.kind == cases::InstrumentKind::access;
   if (saying.kind == EventKind::nick) return scene.instrument.kind == cases::InstrumentKind::core;
   return true;
 }

@@ -140,7 +140,8 @@ double panel_kerma_ngy(Beams& beams, const Pulse& pulse, const PathLengths& fiel
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(field.width_px) +
                               static_cast<std::size_t>(open.first_column);
     const auto from = [&](const std::vector<float>& mm) { return mm.empty() ? nullptr : mm.data() + first; };
-    beam.log_shares(from(field.water_mm), from(field.mineral_mm), from(field.iron_mm), columns, log_shares.data());
+    beam.log_shares(from(field.water_mm), from(field.mineral_mm), from(field.iron_mm), from(field.contrast_mm),
+                    columns, log_shares.data());
     for (const float log_share : log_shares) sum += exact_exp(static_cast<double>(log_share));
   }
   const double pixels = static_cast<double>(columns) * (open.end_row - open.first_row);

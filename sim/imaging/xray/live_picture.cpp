@@ -1,12 +1,15 @@
 #include "sim/imaging/xray/live_picture.h"
 
+#include <utility>
+
 #include "sim/imaging/xray/projection/coarse.h"
 
 namespace seldinger::imaging {
 
 const FluoroscopyPicture& LivePicture::expose(const XrayGeometry& geometry, bool arm_moves,
-                                              const Inserted& inserted, const BeamSignal& beam,
-                                              const Detector& detector, double field_side_mm, const Pulse& pulse,
+                                              const Inserted& inserted, std::vector<float> contrast_mm,
+                                              const BeamSignal& beam, const Detector& detector,
+                                              double field_side_mm, const Pulse& pulse,
                                               const PictureSettings& settings) {
   // Coarse lengths do for a moving arm, and not for one at rest.
   if (!geometry_ || !(*geometry_ == geometry) || (coarse_ && !arm_moves)) {
@@ -21,6 +24,7 @@ const FluoroscopyPicture& LivePicture::expose(const XrayGeometry& geometry, bool
     ++integrations_;
   }
   lengths_ = patient_;
+  lengths_.contrast_mm = std::move(contrast_mm);
   overlay_instruments(*volume_, geometry, inserted, ProjectionMethod::exact, lengths_);
   render_picture(beam, detector, field_side_mm, pulse, lengths_, settings, picture_);
   return picture_;

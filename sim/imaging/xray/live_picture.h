@@ -27,10 +27,11 @@ class LivePicture {
   }
 
   // The picture of one pulse. `geometry` covers the pulse's whole field of field_side_mm, in order
-  // (check_geometry), with width_px and height_px multiples of kMovingCoarseness.
+  // (check_geometry), with width_px and height_px multiples of kMovingCoarseness. `contrast_mm` of each of its
+  // pixels (contrast.h); empty: none.
   const FluoroscopyPicture& expose(const XrayGeometry& geometry, bool arm_moves, const Inserted& inserted,
-                                   const BeamSignal& beam, const Detector& detector, double field_side_mm,
-                                   const Pulse& pulse, const PictureSettings& settings);
+                                   std::vector<float> contrast_mm, const BeamSignal& beam, const Detector& detector,
+                                   double field_side_mm, const Pulse& pulse, const PictureSettings& settings);
 
   // Last-image hold: what the last pulse showed; nothing before the first.
   const FluoroscopyPicture* held() const noexcept { return picture_.grey.empty() ? nullptr : &picture_; }

@@ -187,8 +187,8 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
     for (int row = first_row; row < end_row; ++row) {
       const std::size_t first = row_start(open.first_row + row) + static_cast<std::size_t>(open.first_column);
       const auto from = [&](const std::vector<float>& mm) { return mm.empty() ? nullptr : mm.data() + first; };
-      beam.log_shares(from(lengths.water_mm), from(lengths.mineral_mm), from(lengths.iron_mm), columns,
-                      means.data());
+      beam.log_shares(from(lengths.water_mm), from(lengths.mineral_mm), from(lengths.iron_mm),
+                      from(lengths.contrast_mm), columns, means.data());
       means_from_logs(means.data(), columns, open_quanta);
       if (settings.noise)
         noisy_counts(means.data(), columns, key, static_cast<std::uint32_t>(first), electronic, values);

@@ -50,18 +50,26 @@ std::optional<RayThrough> ray_through(const volume::Volume& volume, const XrayGe
   return through;
 }
 
-double log_share(const BeamSignal& beam, const RayLengths& volume, const OverlaidLengths& overlaid) {
+double log_share(const BeamSignal& beam, const RayLengths& volume, const OverlaidLengths& overlaid,
+                 double contrast_mm) {
   return beam.log_share(volume.water_mm + overlaid.water_mm, volume.mineral_mm + overlaid.mineral_mm,
-                        overlaid.iron_mm);
+                        overlaid.iron_mm, contrast_mm);
+}
+
+double contrast_between_mm(const volume::Volume* contrast, const glm::dvec3& from_lps_mm,
+                           const glm::dvec3& to_lps_mm) {
+  return contrast != nullptr ? lengths_between(*contrast, from_lps_mm, to_lps_mm).water_mm : 0.0;
 }
 
 Contrast contrast_on(const volume::Volume& volume, const RayThrough& through, const BeamSignal& beam, double mas,
-                     const Inserted& with, const Inserted& without, double patch_mm2) {
+                     const Inserted& with, const Inserted& without, double patch_mm2, double contrast_mm,
+                     double contrast_without_mm) {
   const RaySegment& ray = through.ray;
   const RayLengths lengths = lengths_between(volume, ray.from_lps_mm, ray.to_lps_mm);
-  const double log_with = log_share(beam, lengths, overlaid_lengths(volume, ray, with, ProjectionMethod::exact));
-  const double log_without =
-      log_share(beam, lengths, overlaid_lengths(volume, ray, without, ProjectionMethod::exact));
+  const double log_with =
+      log_share(beam, lengths, overlaid_lengths(volume, ray, with, ProjectionMethod::exact), contrast_mm);
+  const double log_without = log_share(
+      beam, lengths, overlaid_lengths(volume, ray, without, ProjectionMethod::exact), contrast_without_mm);
   const double quanta = std::exp(log_without) * beam.open_quanta_per_mas_mm2() * mas * patch_mm2 * 1e6 /
                         (through.focus_panel_mm * through.focus_panel_mm);
   return {std::abs(std::expm1(log_with - log_without)),
@@ -118,7 +126,7 @@ SegmentPart shaft_in_field(const XrayGeometry& g, const cases::Collimator& colli
 
 std::optional<Contrast> needle_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
                                         const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
-                                        double behind_tip_mm) {
+                                        double behind_tip_mm, const volume::Volume* contrast) {
   if (!inserted.needle || !is_finite(*inserted.needle)) return std::nullopt;
   const NeedlePose& needle = *inserted.needle;
   const auto through =
@@ -131,11 +139,14 @@ std::optional<Contrast> needle_contrast(const volume::Volume& volume, const Xray
       std::max(width_mm, std::min(kTipElementMm, needle.length_mm) * across * through->magnification);
   Inserted without = inserted;
   without.needle.reset();
-  return contrast_on(volume, *through, beam, pulse.mas(), inserted, without, width_mm * length_mm);
+  const double contrast_mm = contrast_between_mm(contrast, through->ray.from_lps_mm, through->ray.to_lps_mm);
+  return contrast_on(volume, *through, beam, pulse.mas(), inserted, without, width_mm * length_mm, contrast_mm,
+                     contrast_mm);
 }
 
 std::optional<Contrast> target_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
-                                        const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted) {
+                                        const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
+                                        const volume::Volume* contrast) {
   if (inserted.lesions.empty()) return std::nullopt;
   const cases::Lesion& target = inserted.lesions.front();
   const auto through = ray_through(volume, geometry, target.center_lps_mm, pulse.sid_mm);
@@ -151,11 +162,18 @@ std::optional<Contrast> target_contrast(const volume::Volume& volume, const Xray
   }
   const double shadow_mm2 =
       kPi * target.radius_mm * target.radius_mm * through->magnification * through->magnification;
-  return contrast_on(volume, *through, beam, pulse.mas(), with, without, std::min(shadow_mm2, kLargestPatchMm2));
+  // What fills the target is its own; what lies before and behind it is there with and without it.
+  const RaySegment& ray = through->ray;
+  const Chord ball = sphere_chord(ray, target.center_lps_mm, target.radius_mm);
+  const auto at = [&](double t) { return ray.from_lps_mm + t * (ray.to_lps_mm - ray.from_lps_mm); };
+  const double contrast_mm = contrast_between_mm(contrast, ray.from_lps_mm, ray.to_lps_mm);
+  const double in_target_mm = contrast_between_mm(contrast, at(ball.enter), at(ball.leave));
+  return contrast_on(volume, *through, beam, pulse.mas(), with, without, std::min(shadow_mm2, kLargestPatchMm2),
+                     contrast_mm, contrast_mm - in_target_mm);
 }
 
 Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry, const BeamSignal& beam,
-                     const Pulse& pulse, const Inserted& inserted) {
+                     const Pulse& pulse, const Inserted& inserted, const volume::Volume* contrast) {
   Visible visible;
   const auto hit_in_field = [&](const glm::dvec3& p_lps_mm) {
     const auto through = ray_through(volume, geometry, p_lps_mm, pulse.sid_mm);
@@ -164,8 +182,8 @@ Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry,
   if (inserted.needle && is_finite(*inserted.needle)) {
     const NeedlePose& needle = *inserted.needle;
     const auto seen_at = [&](double behind_tip_mm) {
-      const auto contrast = needle_contrast(volume, geometry, beam, pulse, inserted, behind_tip_mm);
-      return contrast && contrast->visible();
+      const auto found = needle_contrast(volume, geometry, beam, pulse, inserted, behind_tip_mm, contrast);
+      return found && found->visible();
     };
     visible.needle_tip =
         hit_in_field(needle.tip_lps_mm) && seen_at(0.5 * std::min(kTipElementMm, needle.length_mm));
@@ -174,8 +192,8 @@ Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry,
       visible.needle_length_mm = (part.to - part.from) * needle.length_mm;
   }
   if (!inserted.lesions.empty() && hit_in_field(inserted.lesions.front().center_lps_mm)) {
-    const auto contrast = target_contrast(volume, geometry, beam, pulse, inserted);
-    visible.target = contrast && contrast->visible();
+    const auto found = target_contrast(volume, geometry, beam, pulse, inserted, contrast);
+    visible.target = found && found->visible();
   }
   visible.joint = visible.needle_tip && visible.target;
   return visible;

@@ -26,7 +26,7 @@ cases::Case body_with_lumens() {
   scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 5);
   scene.skin_index = cases::MeshIndex(scene.skin);
   scene.volume = volume::make_volume({121, 121, 121}, glm::dvec3(1.0), glm::dmat3(1.0), glm::dvec3(-60.0));
-  scene.instrument.inner_radius_mm = 0.419;  // 18 gauge
+  scene.instrument.radius_mm = 0.635;  // 18 gauge: a bore of 0.838 mm
   scene.structures = {
       {"calyx", TissueClass::fluid, cases::StructureRule::target, cases::Sphere{{0, -20, 0}, 6.0}},
       {"renal_pelvis", TissueClass::fluid, cases::StructureRule::major, cases::Sphere{{0, 10, 0}, 10.0}},

@@ -15,7 +15,8 @@ Attenuation attenuation_at(double energy_kev) {
   const double water_per_mm = attenuation_per_mm(Material::water, energy_kev);
   const double bone_per_mm = attenuation_per_mm(Material::cortical_bone, energy_kev);
   return {water_per_mm, bone_of_mineral * (bone_per_mm - water_per_mm),
-          attenuation_per_mm(Material::iron, energy_kev)};
+          attenuation_per_mm(Material::iron, energy_kev),
+          0.1 * kContrastIodineGCm3 * mass_attenuation_cm2_g(Material::iodine, energy_kev)};
 }
 
 }  // namespace seldinger::imaging

@@ -2,7 +2,7 @@
 // Acta B 66 (2011) 776) at from_kev·(to_kev/from_kev)^(k/(N − 1)): CS_Total_CP for the NIST compounds "Water,
 // Liquid", "Bone, Cortical (ICRP)" and "Cesium Iodide", CS_Total for the elements. Tables end at the K edges.
 // Between their points they are cubic in log–log, which agrees with xraylib within 1e-4 for water, bone, iron,
-// aluminium and copper, and within 1e-3 for tungsten and caesium iodide
+// aluminium and copper, and within 1e-3 for tungsten, caesium iodide and iodine
 // (tests/sim/imaging/xray/attenuation_test.cpp).
 #include "sim/imaging/xray/beam/coefficients.h"
 
@@ -70,6 +70,14 @@ constexpr std::array<double, 20> kCsIAboveCaesiumK = {
     3.026265e+01, 2.487304e+01, 2.046785e+01, 1.685481e+01, 1.386521e+01, 1.137582e+01, 9.311273e+00,
     7.615392e+00, 6.230392e+00, 5.098859e+00, 4.173716e+00, 3.416906e+00, 2.798183e+00, 2.293406e+00,
     1.882330e+00, 1.547942e+00, 1.276021e+00, 1.054955e+00, 8.752405e-01, 7.291130e-01};
+constexpr std::array<double, 20> kIodineBelowK = {
+    8.952384e+01, 7.806942e+01, 6.809354e+01, 5.940435e+01, 5.177736e+01, 4.507889e+01, 3.925663e+01,
+    3.419494e+01, 2.979353e+01, 2.596534e+01, 2.259743e+01, 1.966636e+01, 1.712097e+01, 1.491027e+01,
+    1.299004e+01, 1.132195e+01, 9.872748e+00, 8.613602e+00, 7.510648e+00, 6.552904e+00};
+constexpr std::array<double, 24> kIodineAboveK = {
+    3.582729e+01, 3.025336e+01, 2.554209e+01, 2.155348e+01, 1.817429e+01, 1.530941e+01, 1.288100e+01, 1.082337e+01,
+    9.085195e+00, 7.622278e+00, 6.394581e+00, 5.364839e+00, 4.501335e+00, 3.777441e+00, 3.170727e+00, 2.662694e+00,
+    2.237830e+00, 1.882890e+00, 1.586636e+00, 1.339410e+00, 1.133154e+00, 9.610952e-01, 8.175561e-01, 6.977814e-01};
 
 // Hubbell and Seltzer, NISTIR 5632 (1995), air, dry, near sea level: μ_en/ρ, cm²/g. (xraylib's CS_Energy is no
 // substitute: at 20 keV it is a third lower.)
@@ -104,6 +112,11 @@ double caesium_iodide(double energy_kev) {
   return in_table(kCaesiumKKev, kHighestTableKev, kCsIAboveCaesiumK, energy_kev);
 }
 
+double iodine(double energy_kev) {
+  if (energy_kev < kIodineKKev) return in_table(kLowestTableKev, kIodineKKev, kIodineBelowK, energy_kev);
+  return in_table(kIodineKKev, kHighestTableKev, kIodineAboveK, energy_kev);
+}
+
 double tungsten(double energy_kev) {
   if (energy_kev < kTungstenKKev) return in_table(kLowestTableKev, kTungstenKKev, kTungstenBelowK, energy_kev);
   return in_table(kTungstenKKev, kHighestTableKev, kTungstenAboveK, energy_kev);
@@ -131,6 +144,8 @@ double mass_attenuation_cm2_g(Material material, double energy_kev) {
       return tungsten(energy_kev);
     case Material::caesium_iodide:
       return caesium_iodide(energy_kev);
+    case Material::iodine:
+      return iodine(energy_kev);
   }
   CHECK(false);
 }
@@ -151,6 +166,8 @@ double density_g_cm3(Material material) noexcept {
       return 19.3;
     case Material::caesium_iodide:
       return 4.51;
+    case Material::iodine:
+      return 4.93;
   }
   CHECK(false);
 }

@@ -3,7 +3,7 @@
 
 namespace seldinger::imaging {
 
-enum class Material { water, cortical_bone, iron, aluminium, copper, tungsten, caesium_iodide };
+enum class Material { water, cortical_bone, iron, aluminium, copper, tungsten, caesium_iodide, iodine };
 
 constexpr double kLowestTableKev = 12.5, kHighestTableKev = 150.0;
 

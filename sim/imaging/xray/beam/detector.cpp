@@ -37,7 +37,8 @@ BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector) : kv_
                                         attenuation_per_mm(Material::caesium_iodide, energy_kev));
     const Attenuation attenuation = attenuation_at(energy_kev);
     const double signal = photons * seen * energy_kev;
-    bins_.push_back({signal, attenuation.water_per_mm, attenuation.mineral_per_mm, attenuation.iron_per_mm});
+    bins_.push_back({signal, attenuation.water_per_mm, attenuation.mineral_per_mm, attenuation.iron_per_mm,
+                     attenuation.contrast_per_mm});
     const double through = exact_exp(-kCalibrationWaterMm * attenuation.water_per_mm);
     open_signal += signal;
     hard_signal += signal * through;
@@ -47,12 +48,13 @@ BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector) : kv_
   CHECK(open_signal > 0.0 && bins_.size() <= kMaxBins);
   for (Bin& bin : bins_) {
     bin.signal /= open_signal;
-    const double members[4] = {bin.signal, bin.water_per_mm, bin.mineral_per_mm, bin.iron_per_mm};
-    for (std::size_t i = 0; i < 4; ++i) float_bins_[i].push_back(static_cast<float>(members[i]));
+    const double members[5] = {bin.signal, bin.water_per_mm, bin.mineral_per_mm, bin.iron_per_mm,
+                               bin.contrast_per_mm};
+    for (std::size_t i = 0; i < 5; ++i) float_bins_[i].push_back(static_cast<float>(members[i]));
   }
   while (float_bins_[0].size() % 4 != 0) {  // of no signal, so that four are added at a time
     float_bins_[0].push_back(0.0F);
-    for (std::size_t i = 1; i < 4; ++i) float_bins_[i].push_back(float_bins_[i].back());
+    for (std::size_t i = 1; i < 5; ++i) float_bins_[i].push_back(float_bins_[i].back());
   }
   // Adding up energies, a detector's noise is that of this many quanta of equal energy.
   const double quantum_kev = hard_energy_signal / hard_signal / detector.swank;
@@ -80,45 +82,56 @@ BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector) : kv_
   }
 }
 
-// All three weaken the less the higher the energy is, so the last bin is weakened least. It is taken out of the
-// sum, which so keeps its digits behind anything.
-double BeamSignal::log_share(double water_mm, double mineral_mm, double iron_mm) const {
-  const double water = std::max(water_mm, 0.0), mineral = std::max(mineral_mm, 0.0), iron = std::max(iron_mm, 0.0);
+// What is weakened least is taken out of the sum, which so keeps its digits behind anything: the last bin, since
+// water, mineral and iron weaken the less the higher the energy is, or, behind much iodine, one below its K edge.
+double BeamSignal::log_share(double water_mm, double mineral_mm, double iron_mm, double contrast_mm) const {
+  const double water = std::max(water_mm, 0.0), mineral = std::max(mineral_mm, 0.0), iron = std::max(iron_mm, 0.0),
+               contrast = std::max(contrast_mm, 0.0);
   const auto exponent = [&](const Bin& bin) {
-    return bin.water_per_mm * water + bin.mineral_per_mm * mineral + bin.iron_per_mm * iron;
+    return bin.water_per_mm * water + bin.mineral_per_mm * mineral + bin.iron_per_mm * iron +
+           bin.contrast_per_mm * contrast;
   };
-  const double least = exponent(bins_.back());
+  double least = exponent(bins_.back());
+  if (contrast > 0.0)
+    for (const Bin& bin : bins_) least = std::min(least, exponent(bin));
   double sum = 0.0;
   for (const Bin& bin : bins_) sum += bin.signal * exact_exp(least - exponent(bin));
   return exact_log(sum) - least;
 }
 
-float BeamSignal::log_share_in_float(float water_mm, float mineral_mm, float iron_mm) const {
+float BeamSignal::log_share_in_float(float water_mm, float mineral_mm, float iron_mm, float contrast_mm) const {
   const std::size_t bins = float_bins_[0].size();
   const float* signal = float_bins_[0].data();
   const float* water = float_bins_[1].data();
   const float* mineral = float_bins_[2].data();
   const float* iron = float_bins_[3].data();
-  const float least = water[bins - 1] * water_mm + mineral[bins - 1] * mineral_mm + iron[bins - 1] * iron_mm;
-  std::array<float, kMaxBins> shares;
+  const float* contrast = float_bins_[4].data();
+  std::array<float, kMaxBins> exponents{}, shares;
   for (std::size_t i = 0; i < bins; ++i)
-    shares[i] = signal[i] * float_exp(least - (water[i] * water_mm + mineral[i] * mineral_mm + iron[i] * iron_mm));
+    exponents[i] = water[i] * water_mm + mineral[i] * mineral_mm + iron[i] * iron_mm;
+  float least = exponents[bins - 1];
+  if (contrast_mm > 0.0F) {
+    for (std::size_t i = 0; i < bins; ++i) exponents[i] += contrast[i] * contrast_mm;
+    least = *std::min_element(exponents.begin(), exponents.begin() + static_cast<std::ptrdiff_t>(bins));
+  }
+  for (std::size_t i = 0; i < bins; ++i) shares[i] = signal[i] * float_exp(least - exponents[i]);
   float sums[4] = {0.0F, 0.0F, 0.0F, 0.0F};
   for (std::size_t i = 0; i < bins; i += 4)
     for (std::size_t lane = 0; lane < 4; ++lane) sums[lane] += shares[i + lane];
   return float_log((sums[0] + sums[1]) + (sums[2] + sums[3])) - least;
 }
 
-void BeamSignal::log_shares(const float* water_mm, const float* mineral_mm, const float* iron_mm, int count,
-                            float* out) const {
+void BeamSignal::log_shares(const float* water_mm, const float* mineral_mm, const float* iron_mm,
+                            const float* contrast_mm, int count, float* out) const {
   const float* table = table_.data();
+  const auto at = [](const float* mm, int i) { return mm == nullptr ? 0.0F : std::max(mm[i], 0.0F); };
   for (int i = 0; i < count; ++i) {
-    const float water = std::max(water_mm[i], 0.0F),
-                mineral = mineral_mm == nullptr ? 0.0F : std::max(mineral_mm[i], 0.0F);
+    const float water = std::max(water_mm[i], 0.0F), mineral = at(mineral_mm, i), iron = at(iron_mm, i),
+                contrast = at(contrast_mm, i);
     const bool in_table =
         water < static_cast<float>(kTableWaterMm) && mineral < static_cast<float>(kTableMineralMm);
-    if (!in_table || (iron_mm != nullptr && iron_mm[i] > 0.0F)) {
-      out[i] = log_share_in_float(water, mineral, iron_mm == nullptr ? 0.0F : std::max(iron_mm[i], 0.0F));
+    if (!in_table || iron > 0.0F || contrast > 0.0F) {
+      out[i] = log_share_in_float(water, mineral, iron, contrast);
       continue;
     }
     const float x = water * (1.0F / kWaterStepMm), y = mineral * (1.0F / kMineralStepMm);

@@ -1,4 +1,4 @@
-// A flat panel with a caesium iodide screen, and what it makes of a beam behind water, mineral and iron.
+// A flat panel with a caesium iodide screen, and what it makes of a beam behind water, mineral, iron and iodine.
 #pragma once
 
 #include <vector>
@@ -25,14 +25,14 @@ class BeamSignal {
   BeamSignal(const Spectrum& spectrum, const Detector& detector);
 
   // The sum over the spectrum. Lengths of projection.h; negative ones count as 0.
-  double log_share(double water_mm, double mineral_mm, double iron_mm = 0.0) const;
+  double log_share(double water_mm, double mineral_mm, double iron_mm = 0.0, double contrast_mm = 0.0) const;
 
   // The same for `count` pixels by a table over water (to kTableWaterMm) and mineral (to kTableMineralMm), bilinear
-  // in the logarithm; beyond the table, and where there is iron (`iron_mm` may be null), by the sum. The worst
-  // error of the table's signal is measured in tests/sim/imaging/xray/detector_test.cpp: < 1e-3. The same bits on
-  // every machine.
-  void log_shares(const float* water_mm, const float* mineral_mm, const float* iron_mm, int count,
-                  float* out) const;
+  // in the logarithm; beyond the table, and where there is iron or contrast (either may be null), by the sum. The
+  // worst error of the table's signal is measured in tests/sim/imaging/xray/detector_test.cpp: < 1e-3. The same
+  // bits on every machine.
+  void log_shares(const float* water_mm, const float* mineral_mm, const float* iron_mm, const float* contrast_mm,
+                  int count, float* out) const;
 
   // In the open beam at 1 m.
   double open_quanta_per_mas_mm2() const noexcept { return open_quanta_; }
@@ -46,11 +46,11 @@ class BeamSignal {
 
  private:
   struct Bin {
-    double signal, water_per_mm, mineral_per_mm, iron_per_mm;
+    double signal, water_per_mm, mineral_per_mm, iron_per_mm, contrast_per_mm;
   };
-  float log_share_in_float(float water_mm, float mineral_mm, float iron_mm) const;
+  float log_share_in_float(float water_mm, float mineral_mm, float iron_mm, float contrast_mm) const;
   std::vector<Bin> bins_;             // by energy
-  std::vector<float> float_bins_[4];  // the members of bins_
+  std::vector<float> float_bins_[5];  // the members of bins_
   std::vector<float> table_;          // [mineral][water] of log share
   double kv_, open_quanta_, open_kerma_mgy_, kerma_per_share_;
 };

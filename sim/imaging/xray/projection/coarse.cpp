@@ -65,7 +65,7 @@ XrayGeometry coarser(XrayGeometry geometry, int by) {
 }
 
 PathLengths enlarged(const PathLengths& coarse, int by) {
-  CHECK(by > 0 && coarse.iron_mm.empty());  // a needle is laid over the full picture
+  CHECK(by > 0 && coarse.iron_mm.empty() && coarse.contrast_mm.empty());  // both are laid over the full picture
   PathLengths fine{coarse.width_px * by, coarse.height_px * by, {}, {}, {}};
   fine.water_mm = enlarged_plane(coarse.water_mm, coarse.width_px, coarse.height_px, by);
   if (!coarse.mineral_mm.empty())
@@ -90,6 +90,7 @@ PathLengths averaged(const PathLengths& fine, int by) {
   means.water_mm = plane(fine.water_mm);
   means.mineral_mm = plane(fine.mineral_mm);
   means.iron_mm = plane(fine.iron_mm);
+  means.contrast_mm = plane(fine.contrast_mm);
   return means;
 }
 

@@ -51,6 +51,7 @@ struct PathLengths {
   int width_px = 0, height_px = 0;
   std::vector<float> water_mm, mineral_mm;  // row-major; mineral_mm is empty where only the total was asked for
   std::vector<float> iron_mm;               // empty unless a needle was laid over
+  std::vector<float> contrast_mm{};         // empty unless contrast medium was (contrast.h)
 };
 
 // One ray's lengths, in double.

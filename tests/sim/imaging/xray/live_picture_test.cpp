@@ -21,7 +21,7 @@ struct Room {
 
   const FluoroscopyPicture& expose(bool moves) {
     ++settings.frame;
-    return live.expose(geometry, moves, inserted, beams.at(pulse.technique.kv), beams.detector(), 300.0, pulse,
+    return live.expose(geometry, moves, inserted, {}, beams.at(pulse.technique.kv), beams.detector(), 300.0, pulse,
                        settings);
   }
 };

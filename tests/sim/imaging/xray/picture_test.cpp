@@ -82,7 +82,7 @@ TEST(Picture, KeepsTheDetectorsModulation) {
     const FluoroscopyPicture& picture = chain.of(lengths, settings);
     std::vector<float> sharp(512);
     const BeamSignal& beam = chain.beams.at(75.0);
-    beam.log_shares(lengths.water_mm.data(), nullptr, nullptr, 512, sharp.data());
+    beam.log_shares(lengths.water_mm.data(), nullptr, nullptr, nullptr, 512, sharp.data());
     double mean = 0.0, mean_out = 0.0;
     for (int i = 0; i < 512; ++i) {
       mean += static_cast<double>(sharp[static_cast<std::size_t>(i)]) / 512.0;

@@ -50,6 +50,8 @@ TEST(Attenuation, AgreesWithXraylib) {
   EXPECT_LE(worst_of(12.5, 33.16, table(Material::caesium_iodide), iodide), 1e-3);
   EXPECT_LE(worst_of(33.18, 35.98, table(Material::caesium_iodide), iodide), 1e-3);
   EXPECT_LE(worst_of(35.99, 150.0, table(Material::caesium_iodide), iodide), 1e-3);
+  EXPECT_LE(worst_of(12.5, 33.16, table(Material::iodine), element(53)), 1e-3);
+  EXPECT_LE(worst_of(33.18, 150.0, table(Material::iodine), element(53)), 1e-3);
 }
 
 TEST(Attenuation, EveryWholeKeV) {

@@ -19,7 +19,7 @@ BeamSignal beam_of(double kv) {
 
 float by_table(const BeamSignal& beam, float water_mm, float mineral_mm, float iron_mm = 0.0F) {
   float result = NAN;
-  beam.log_shares(&water_mm, &mineral_mm, &iron_mm, 1, &result);
+  beam.log_shares(&water_mm, &mineral_mm, &iron_mm, nullptr, 1, &result);
   return result;
 }
 

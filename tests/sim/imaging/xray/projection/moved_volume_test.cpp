@@ -165,7 +165,8 @@ TEST(LivePicture, IntegratesWhoMovedAnew) {
   PictureSettings settings;
   settings.noise = false;
   const auto expose = [&] {
-    return live.expose(g, false, {}, beams.at(pulse.technique.kv), beams.detector(), 300.0, pulse, settings).grey;
+    return live.expose(g, false, {}, {}, beams.at(pulse.technique.kv), beams.detector(), 300.0, pulse, settings)
+        .grey;
   };
   const auto still = expose();
   MovedVolume moved(trunk());
