@@ -1,5 +1,5 @@
--- With it somebody sets their own password, once. Of the link only the hash: a copy of this opens nothing. A backup
--- holds none of these rows.
+-- With it somebody sets their own password, once. Of the link only the hash: a copy of this opens nothing. A restored
+-- library holds none of these rows.
 CREATE TABLE password_link (
   secret_hash TEXT NOT NULL PRIMARY KEY CHECK (length(secret_hash) = 64), -- SHA-256; the link has only who was given it
   person_id TEXT NOT NULL REFERENCES person (person_id),

@@ -167,7 +167,8 @@ TEST(AccessMatrix, AForbiddenAttemptIsByteForByteAMissingOne) {
     FakeBrowser browser(*fake.site);
     fake.questions.relations.clear();
     browser.log_in_as(role);
-    for (const char* end : {"", "/picture.png", "/replay.json", "/metrics.json", "/grade.json"}) {
+    for (const char* end : {"", "/picture.png", "/replay.json", "/metrics.json", "/grade.json", "/pictures",
+                            "/pictures.png", "/pictures.png?n=2"}) {
       const Response forbidden = browser.get("/attempts/" + kOthersAttempt + end);
       const Response missing = browser.get("/attempts/" + kMissingAttempt + end);
       EXPECT_EQ(bytes_of(forbidden, true), bytes_of(missing, true));

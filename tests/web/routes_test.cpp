@@ -122,6 +122,19 @@ TEST(Routes, PicturesAreDrawnOnceAndTheirAbsenceIsSaid) {
   EXPECT_EQ(fake.questions.pictures_made, 2) << "the refusal, and once";
 }
 
+// A page with a dozen pictures asks a dozen times: they do not wait while somebody else's are drawn.
+TEST(Routes, PicturesThatAreDrawnAreAnsweredAsPages) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::mentor);
+  const std::string page = "/attempts/" + kOthersAttempt + "/pictures";
+  const auto lane = [&](const std::string& path) { return fake.site->lane_of(browser.request("GET", path)); };
+  for (const char* end : {"", ".png?n=1"}) EXPECT_EQ(lane(page + end), Lane::heavy) << end;
+  ASSERT_EQ(browser.get(page).status, 200);
+  for (const char* end : {"", ".png?n=1"}) EXPECT_EQ(lane(page + end), Lane::pages) << end;
+  EXPECT_EQ(lane("/attempts/" + kOwnAttempt + "/pictures"), Lane::heavy) << "another's";
+}
+
 // What a browser has kept it is not sent again, while it is theirs to see; nothing else is kept.
 TEST(Routes, AKeptPictureIsAskedForAndNotSentAgain) {
   FakeSite fake;

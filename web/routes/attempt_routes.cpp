@@ -22,6 +22,7 @@ namespace {
 using casedb::Action;
 
 constexpr std::size_t kRowsOfAPage = 50;
+constexpr std::string_view kDrawn = "pictures ";  // as site.answers keeps them, by attempt
 constexpr std::string_view kSeen =
     "trainee: own; mentor: own, own cohort, simulated; director: own programmes; researcher: consenting people of "
     "own studies as pseudonyms, simulated";
@@ -192,7 +193,7 @@ Response show_skin(Site& site, const Call& call) {
 }
 
 base::Result<std::shared_ptr<const Answers::Made>> drawn_pictures(Site& site, const std::string& attempt_id) {
-  return site.answers.get("pictures " + attempt_id, [&]() -> base::Result<Answers::Made> {
+  return site.answers.get(std::string(kDrawn) + attempt_id, [&]() -> base::Result<Answers::Made> {
     auto drawn = site.questions.pictures_of(attempt_id);
     if (!drawn) return drawn.error();
     return Answers::Made{std::move(drawn->markup), true, std::move(drawn->pngs)};
@@ -258,9 +259,9 @@ constexpr Route kAttemptRoutes[] = {
      "a coarse net of the patient's skin for the replay, in LPS", show_skin, Lane::heavy},
     {"GET", "/attempts/{attempt_id}/pictures", Action::see_recording, true, kRecordingSeen,
      "what was on the screen at its telling moments and where the needle was, drawn when first asked",
-     show_pictures, Lane::heavy},
+     show_pictures, Lane::heavy, kDrawn},
     {"GET", "/attempts/{attempt_id}/pictures.png", Action::see_recording, false, kRecordingSeen,
-     "one of those pictures; ?n=N", show_drawn_picture, Lane::heavy},
+     "one of those pictures; ?n=N", show_drawn_picture, Lane::heavy, kDrawn},
     {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
      "its metrics as `score` prints them", show_metrics},
     {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,

@@ -18,6 +18,10 @@ std::shared_ptr<const Answers::Made> Answers::find(const std::string& key) {
   return kept_.front().made;
 }
 
+bool Answers::holds(const std::string& key) {
+  return find(key) != nullptr;
+}
+
 base::Result<std::shared_ptr<const Answers::Made>> Answers::get(const std::string& key, const Make& make) {
   if (auto kept = find(key)) return kept;
   const std::lock_guard one_at_a_time(making_);

@@ -27,6 +27,7 @@ class Answers {
   // What is kept under this key, else what `make` makes: it is called once, however many ask at the same time. Its
   // refusal is answered and not kept. The longest unused make room.
   base::Result<std::shared_ptr<const Made>> get(const std::string& key, const Make& make);
+  bool holds(const std::string& key);
 
  private:
   struct Kept {
@@ -34,7 +35,7 @@ class Answers {
     std::shared_ptr<const Made> made;
     std::size_t bytes() const noexcept;
   };
-  std::shared_ptr<const Made> find(const std::string& key);  // null: it is not kept
+  std::shared_ptr<const Made> find(const std::string& key);  // null: it is not kept; else it was used now
 
   const std::size_t most_bytes_;
   std::mutex making_, mutex_;

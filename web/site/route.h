@@ -48,6 +48,9 @@ struct Route {
   std::string_view summary;
   Response (*handle)(Site&, const Call&) = nullptr;
   Lane lane = Lane::pages;
+  // Of a heavy one that is made of an answer which site.answers keeps as this and the id: once it is there, it is
+  // as light as a page.
+  std::string_view kept_as{};
 };
 
 // Whether `path` fits; fills the pattern's id.

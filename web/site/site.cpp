@@ -124,7 +124,8 @@ Lane Site::lane_of(const Request& request) {
   for (const Route& route : routes_)
     if (route.method == (request.method == "HEAD" ? "GET" : request.method) &&
         matches(route.pattern, request.path, id_in_path))
-      lane = route.lane;
+      lane = !route.kept_as.empty() && answers.holds(std::string(route.kept_as) + id_in_path) ? Lane::pages
+                                                                                              : route.lane;
   if (lane == Lane::pages || lane == Lane::log_in) return lane;
   const casedb::Secret id{cookie(request, cookies.session)};
   return sessions.find(id.text) ? lane : Lane::pages;

@@ -11,6 +11,7 @@
 #include "casedb/database/credentials.h"
 #include "casedb/database/disk.h"
 #include "casedb/keeping/check.h"
+#include "casedb/people/password_links.h"
 #include "tests/casedb/library_samples.h"
 #include "tests/fixtures/allocations.h"
 
@@ -77,6 +78,22 @@ TEST_F(BackupTest, ComesBackAsItWas) {
   ASSERT_TRUE(log_in(library, "ann", "a password").has_value());
   // It is a library like any other.
   static_cast<void>(add_lesion(library, row.case_id, sample_lesion()).value());
+}
+
+// Whoever comes upon an old link sets nobody's password in a library that came back from before it was used.
+TEST_F(BackupTest, NoLinkToSetAPasswordComesBack) {
+  make();
+  std::string secret;
+  {
+    Library library = open_library(folder_);
+    secret = make_password_link(library, "ann").value().secret;
+  }
+  ASSERT_EQ(backed_up(), "none");
+  ASSERT_EQ(refusal(), "none");
+  Library library = open_library(folder_), restored = open_library(restored_);
+  EXPECT_TRUE(account_of_password_link(library, secret).has_value());
+  EXPECT_FALSE(account_of_password_link(restored, secret).has_value());
+  EXPECT_EQ(restored.database().integer("SELECT count(*) FROM password_link"), 0);
 }
 
 TEST_F(BackupTest, IsReadableByItsOwnerOnly) {
