@@ -12,7 +12,7 @@
 namespace seldinger::app {
 namespace {
 
-constexpr int kColumns = 5, kGap = 4, kLegendRow = 12, kLegendColumns = 8;
+constexpr int kColumns = 5, kGap = 4, kLegendRow = 12, kLegendColumns = 5, kLegendWidth = 170;
 constexpr double kPixelMm = 1.5, kLowestHu = -160.0, kHighestHu = 240.0;
 constexpr Colour kInk{230, 230, 230};
 
@@ -76,7 +76,8 @@ Canvas tissue_sheet(const volume::Volume& volume, std::span<const volume::Tissue
                               " " + std::to_string(std::lround(100.0 * one.confidence)) + " %",
                           colour_of(one.organ));
   const int legend_rows = (static_cast<int>(legend.size()) + kLegendColumns - 1) / kLegendColumns;
-  const int all_wide = std::max(kColumns * (width + kGap), kLegendColumns * 130), top = rows * (height + kGap);
+  const int all_wide = std::max(kColumns * (width + kGap), kLegendColumns * kLegendWidth),
+            top = rows * (height + kGap);
   Canvas canvas(all_wide, top + legend_rows * kLegendRow + kGap, {0, 0, 0});
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
   for (int slice = 0; slice < slices; ++slice) {

@@ -25,7 +25,7 @@ TEST(TissueSheet, TintsWhatVoxelsAre) {
   for (int k = 0; k < 30; ++k) organs.at[made.index(60, 40, k)] = volume::FoundOrgan::spleen;
   organs.found.push_back({volume::FoundOrgan::spleen, 0.9, 1.0, 40});
   const Canvas sheet = tissue_sheet(made, classes, organs);
-  EXPECT_EQ(sheet.width_px(), 8 * 130);  // five slices of 160 and their gaps are less
+  EXPECT_EQ(sheet.width_px(), 5 * 170);  // five slices of 160 and their gaps are less
   EXPECT_GT(sheet.height_px(), 4 * 160);
   const auto at = [&](int x, int y) {
     const std::size_t from = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(sheet.width_px()) +
@@ -42,7 +42,7 @@ TEST(TissueSheet, TintsWhatVoxelsAre) {
   EXPECT_EQ(at(2, 2), (std::array<int, 3>{0, 0, 0}));
   // The legend names the class and the organ that are there: two patches of colour below the slices.
   EXPECT_EQ(at(2, sheet.height_px() - 10), (std::array<int, 3>{255, 190, 110}));
-  EXPECT_EQ(at(132, sheet.height_px() - 10), (std::array<int, 3>{170, 80, 255}));
+  EXPECT_EQ(at(172, sheet.height_px() - 10), (std::array<int, 3>{170, 80, 255}));
 }
 
 }  // namespace
