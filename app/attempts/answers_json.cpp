@@ -127,6 +127,8 @@ std::string json_of_samples(const std::vector<PointSample>& samples) {
                 {"hu_trilinear", maybe(sample.hu_trilinear)},
                 {"tissue", maybe(sample.tissue)}};
     if (sample.label) one["label"] = *sample.label;
+    if (sample.organ) one["organ"] = *sample.organ;
+    if (sample.organ_confidence) one["organ_confidence"] = *sample.organ_confidence;
     list.push_back(one);
   }
   return text({{"samples", list}});

@@ -3,8 +3,11 @@
 
 #include "app/acting/acting.h"
 #include "app/cases/case_answers_json.h"
+#include "app/cases/tissue_sheet.h"
 #include "app/cases/tissue_text.h"
 #include "app/cli/command.h"
+#include "app/cli/file.h"
+#include "app/replay/png.h"
 #include "casedb/cases/authoring.h"
 #include "session/case/case_build.h"
 
@@ -12,6 +15,8 @@ namespace seldinger::app {
 namespace {
 
 int run_case_explain(const Arguments& arguments) {
+  std::optional<std::filesystem::path> sheet;
+  if (arguments.has("--sheet")) sheet = file_of("--sheet", arguments.required("--sheet"), {".png"});
   auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const std::string case_id = arguments.positional(0);
@@ -29,6 +34,11 @@ int run_case_explain(const Arguments& arguments) {
   if (!volume) return refuse(volume.error());
   const auto classes = casedb::load_classes(*library, *row);
   if (!classes) return refuse(classes.error());
+  if (sheet) {
+    const Canvas drawn = tissue_sheet(*volume, *classes, volume::find_organs(*volume, *classes));
+    const std::vector<std::byte> png = png_from_rgb(drawn.rgb(), drawn.width_px(), drawn.height_px());
+    write_file(*sheet, std::string(reinterpret_cast<const char*>(png.data()), png.size()));
+  }
   const volume::TissueTold tissue = volume::tell_tissue(*volume, *classes);
   if (arguments.has("--json")) {
     std::fputs(json_of_needs(case_id, needs, tissue).c_str(), stdout);
@@ -48,6 +58,9 @@ int run_case_explain(const Arguments& arguments) {
   return kDone;
 }
 
+constexpr Option kExplainOptions[] = {
+    kLibrary, {"--sheet", "FILE.png", "draws the CT slice by slice, tinted by tissue class and organ"}, kJson};
+
 }  // namespace
 
 Command case_explain_command() {
@@ -55,7 +68,7 @@ Command case_explain_command() {
           .positionals = "CASE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kLibraryJson,
+          .options = kExplainOptions,
           .summary =
               "Lists what a case's CT shows, what its scene holds in memory, what can move its tissue, and what "
               "that costs.",

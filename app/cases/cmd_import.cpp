@@ -1,4 +1,5 @@
 // import, sample.
+#include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
 
@@ -13,6 +14,7 @@
 #include "casedb/cases/permissions.h"
 #include "casedb/cases/versions.h"
 #include "casedb/import/ct_rules.h"
+#include "sim/volume/organs/find_organs.h"
 
 namespace seldinger::app {
 
@@ -122,11 +124,23 @@ int run_import(const Arguments& arguments) {
   return kDone;
 }
 
+void tell_organ(const volume::Organs& organs, PointSample& sample) {
+  const glm::dvec3 index(volume::voxel_from_lps(organs.grid) * glm::dvec4(sample.lps_mm, 1.0));
+  const glm::ivec3 nearest =
+      glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), organs.grid.size_voxels - 1);
+  const volume::FoundOrgan organ = organs.at[organs.grid.index(nearest.x, nearest.y, nearest.z)];
+  if (organ == volume::FoundOrgan::none) return;
+  sample.organ = base::name_of(volume::kFoundOrganNames, organ);
+  for (const volume::OrganFound& one : organs.found)
+    if (one.organ == organ) sample.organ_confidence = one.confidence;
+}
+
 int run_sample(const Arguments& arguments) {
   arguments.required("--lps");
   std::vector<PointSample> samples;
   for (const std::string& text : arguments.all("--lps")) {
-    samples.push_back({point_of("--lps", text), {}, {}, {}, {}});
+    samples.push_back({});
+    samples.back().lps_mm = point_of("--lps", text);
   }
   auto library = open_library(arguments);
   if (!library) return refuse(library.error());
@@ -143,6 +157,8 @@ int run_sample(const Arguments& arguments) {
   const auto classes = casedb::load_classes(*library, *row);
   if (!classes) return refuse(classes.error());
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(*volume);
+  std::optional<volume::Organs> organs;
+  if (!labels) organs = volume::find_organs(*volume, *classes);
   for (PointSample& sample : samples) {
     const glm::dvec3 index(voxel_from_lps * glm::dvec4(sample.lps_mm, 1.0));
     if (const auto hu = volume::sample_nearest(*volume, index)) sample.hu_nearest = *hu;
@@ -153,16 +169,22 @@ int run_sample(const Arguments& arguments) {
     const std::size_t at = volume->index(nearest.x, nearest.y, nearest.z);
     sample.tissue = volume::about((*classes)[at]).name;
     if (labels) sample.label = labels->names[labels->label[at]];
+    if (organs) tell_organ(*organs, sample);
   }
   if (arguments.has("--json")) {
     std::fputs(json_of_samples(samples).c_str(), stdout);
     return kDone;
   }
   for (const PointSample& sample : samples) {
+    const std::string known = sample.label ? ", " + *sample.label
+                              : sample.organ
+                                  ? ", " + *sample.organ + " (" +
+                                        std::to_string(std::lround(100.0 * *sample.organ_confidence)) + " % sure)"
+                                  : std::string();
     std::printf("%.6g,%.6g,%.6g: ", sample.lps_mm.x, sample.lps_mm.y, sample.lps_mm.z);
     if (sample.hu_nearest)
-      std::printf("nearest %.0f HU, trilinear %.2f HU, %s%s%s\n", *sample.hu_nearest, *sample.hu_trilinear,
-                  sample.tissue->c_str(), sample.label ? ", " : "", sample.label ? sample.label->c_str() : "");
+      std::printf("nearest %.0f HU, trilinear %.2f HU, %s%s\n", *sample.hu_nearest, *sample.hu_trilinear,
+                  sample.tissue->c_str(), known.c_str());
     else
       std::printf("outside the volume\n");
   }
@@ -227,7 +249,7 @@ Command sample_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kSampleOptions,
-          .summary = "Prints the HU at points of a case, and which tissue is there.",
+          .summary = "Prints the HU at points of a case, and which tissue and organ are there.",
           .run = &run_sample};
 }
 

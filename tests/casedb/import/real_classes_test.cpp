@@ -1,8 +1,11 @@
 // Tissue classes of the real CT volumes, at the landmarks of their READMEs and at places that a reader of the
 // slices names without doubt.
+#include <algorithm>
 #include <array>
+#include <string>
 
 #include "sim/volume/classes.h"
+#include "sim/volume/organs/find_organs.h"
 #include "sim/volume/tissue/find_tissue.h"
 #include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
@@ -67,6 +70,33 @@ TEST_F(RealClasses, InTheContrastAbdomenNothingEnhancedIsBone) {
   EXPECT_LT(ml(TissueClass::metal), 3.0);
   EXPECT_GT(ml(TissueClass::bone), 400.0);
   EXPECT_LT(ml(TissueClass::bone), 700.0);
+}
+
+// Looked at slice by slice; the kidneys are cut by the field's end, the liver lies on the stomach's wall.
+TEST_F(RealClasses, OrgansAreNamedRightlyOrNotAtAll) {
+  SELDINGER_NEEDS_SHARED_DATA();
+  using volume::FoundOrgan;
+  for (const char* name : {"ct-abdomen-contrast-dicom", "ct-abdomen-pelvis/abdomen_pelvis_2x.mha",
+                           "ct-neck/neck.nrrd", "ct-thorax-inlet/thorax_inlet_1mm.mha"}) {
+    take(shared_data(name));
+    const volume::Organs organs = volume::find_organs(volume_, classes_);
+    const auto organ_at = [&](const glm::dvec3& p_lps_mm) {
+      const glm::ivec3 at(glm::round(glm::dvec3(volume::voxel_from_lps(organs.grid) * glm::dvec4(p_lps_mm, 1.0))));
+      return organs.at[organs.grid.index(at.x, at.y, at.z)];
+    };
+    const auto named = std::count_if(organs.at.begin(), organs.at.end(),
+                                     [](FoundOrgan organ) { return organ != FoundOrgan::none; });
+    if (std::string(name) != "ct-abdomen-contrast-dicom") {
+      EXPECT_EQ(named, 0) << name;
+      continue;
+    }
+    EXPECT_EQ(organ_at({89, 55, -98}), FoundOrgan::spleen);
+    EXPECT_EQ(std::count(organs.at.begin(), organs.at.end(), FoundOrgan::spleen), named);
+    EXPECT_NEAR(static_cast<double>(named) * 0.027, 300.0, 45.0) << "ml";
+    for (const glm::dvec3& p :
+         {glm::dvec3{-107, 51, -153}, {52, 66, -153}, {-14, 25, -153}, {-42, 16, -153}, {-115, -5, -98}})
+      EXPECT_EQ(organ_at(p), FoundOrgan::none);
+  }
 }
 
 TEST_F(RealClasses, InThePlainAbdomenTheSpineIsBoneAndTheBladderFluid) {

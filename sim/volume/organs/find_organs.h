@@ -1,0 +1,38 @@
+// Solid organs of a CT without labels, by classical means: an even piece of one level, in the organ's place, of its
+// size, that is parted from all else. What is not sure is left to be soft tissue (docs/decisions/0074).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/base/names.h"
+#include "sim/volume/classes.h"
+
+namespace seldinger::volume {
+
+enum class FoundOrgan : std::uint8_t { none, liver, spleen, right_kidney, left_kidney };
+inline constexpr auto kFoundOrganNames = base::names<FoundOrgan>({{FoundOrgan::none, "none"},
+                                                                  {FoundOrgan::liver, "liver"},
+                                                                  {FoundOrgan::spleen, "spleen"},
+                                                                  {FoundOrgan::right_kidney, "right_kidney"},
+                                                                  {FoundOrgan::left_kidney, "left_kidney"}});
+
+struct OrganFound {
+  FoundOrgan organ = FoundOrgan::none;
+  double confidence = 0.0;  // 0 to 1
+  double ml = 0.0;
+  int level_hu = 0;
+};
+
+// On a grid of 3 mm along the patient's axes.
+struct Organs {
+  Volume grid;                    // HU, averaged
+  std::vector<FoundOrgan> at;     // one per voxel of the grid; those with confidence only
+  std::vector<OrganFound> found;  // also those without enough confidence, which `at` does not show
+};
+constexpr double kOrganConfidence = 0.5;  // from here on it is named
+
+// Classes: as many as voxels (CHECK). Same input, same answer; one thread.
+Organs find_organs(const Volume& volume, const std::vector<TissueClass>& classes);
+
+}  // namespace seldinger::volume
