@@ -77,6 +77,8 @@ TEST(BlandAltman, IsThatOfR) {
     SCOPED_TRACE(set);
     const std::string name = "s" + std::to_string(set) + "_";
     const Answer answer = bland_altman(fixtures::scores(sets[set]), 1.96);
+    fixtures::note_difference(answer.ci95->low, want.at(name + "low"));
+    fixtures::note_difference(number_of(answer, "limit_high"), want.at(name + "limit"));
     EXPECT_LE(std::abs(*answer.p_value - want.at(name + "p")), 1e-9);
     EXPECT_LE(std::abs(answer.ci95->low - want.at(name + "low")), 1e-9);
     EXPECT_LE(std::abs(number_of(answer, "limit_high") - want.at(name + "limit")), 1e-9);
