@@ -31,7 +31,7 @@ there are several), `p_value` (two-sided unless `method` says otherwise), `estim
 infinities are never printed. Numbers have as many digits as it takes to read the same number back.
 
 **Oracle** says what the tests of `tests/assessment/statistics` hold the procedure against, and the largest difference that they let pass
-(relative, unless it says otherwise). R is that of Debian 12.
+(relative, unless it says otherwise); [held](statistics-held.md) says what was seen. R is that of Debian 12.
 )";
 
 std::string cell(std::string text) {

@@ -170,6 +170,16 @@ void write_facts(casedb::Library& library, std::span<const casedb::AttemptKey> k
                         PersonFact{&name, &one, days(first_us.at(person_id), one.given_us, precision)}, precision));
 }
 
+// What says what the tables are: to people, to programs, to REDCap.
+void write_descriptions(const fs::path& at, bool with_events) {
+  std::vector<std::string> tables{"attempts.csv", "metrics.csv", "steps.csv", "facts.csv"};
+  if (with_events) tables.emplace_back("events.csv");
+  write_whole(at / "data_dictionary.csv", data_dictionary());
+  write_whole(at / "datapackage.json", data_package(tables));
+  write_whole(at / "redcap_dictionary.csv", redcap_dictionary());
+  write_whole(at / "README.txt", raw_readme());
+}
+
 }  // namespace
 
 base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out, const RawChoice& choice,
@@ -243,12 +253,7 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
   metrics.close();
   steps.close();
   if (events) events->close();
-  write_whole(at / "data_dictionary.csv", data_dictionary());
-  std::vector<std::string> tables{"attempts.csv", "metrics.csv", "steps.csv", "facts.csv"};
-  if (choice.events) tables.emplace_back("events.csv");
-  write_whole(at / "datapackage.json", data_package(tables));
-  write_whole(at / "redcap_dictionary.csv", redcap_dictionary());
-  write_whole(at / "README.txt", raw_readme());
+  write_descriptions(at, choice.events);
   sum.files += choice.events ? 9 : 8;
   if (!folder.keep()) return base::Error{"exists", "there is already something of that name"};
   parents.keep();

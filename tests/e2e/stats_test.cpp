@@ -301,6 +301,12 @@ TEST_F(Stats, AnswersWhatRAndThePapersDo) {
   EXPECT_GE(procedures.size(), 25U);
 }
 
+TEST_F(Stats, EveryProcedureStandsOnThePageOfWhatHoldsIt) {
+  const std::string page = fixtures::whole_file(fixtures::source_dir() / "docs" / "statistics-held.md");
+  for (const app::ProcedureExample& one : app::procedure_examples())
+    EXPECT_NE(page.find("| [`" + std::string(one.procedure) + "`]"), std::string::npos) << one.procedure;
+}
+
 // As they stand in docs/statistics.md, from the repository's folder.
 TEST_F(Stats, EveryExampleOfThePageIsEstimated) {
   fs::create_directories(folder_ / "docs");

@@ -80,4 +80,30 @@ inline std::map<std::string, double> r_values(const std::string& script) {
   return values;
 }
 
+// The largest difference between us and R that each test saw, of numbers above 1 as a share; told at the program's
+// end where SELDINGER_R_WORST asks for it: docs/statistics-held.md is made of that.
+class WorstDifferences {
+ public:
+  void note(double got, double want) {
+    if (!std::isfinite(want)) return;
+    double& worst = worst_[testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() +
+                           std::string(".") + testing::UnitTest::GetInstance()->current_test_info()->name()];
+    worst = std::max(worst, std::abs(got - want) / std::max(1.0, std::abs(want)));
+  }
+  ~WorstDifferences() {
+    if (std::getenv("SELDINGER_R_WORST") == nullptr) return;
+    for (const auto& [test, worst] : worst_) std::printf("%-56s %.1e\n", test.c_str(), worst);
+  }
+  WorstDifferences() = default;
+  WorstDifferences(const WorstDifferences&) = delete;
+  WorstDifferences& operator=(const WorstDifferences&) = delete;
+
+ private:
+  std::map<std::string, double> worst_;
+};
+inline void note_difference(double got, double want) {
+  static WorstDifferences worst;
+  worst.note(got, want);
+}
+
 }  // namespace seldinger::fixtures

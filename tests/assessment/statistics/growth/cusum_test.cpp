@@ -194,8 +194,12 @@ TEST(NormalCusum, RunLengthsAreThoseOfSpc) {
   const auto r = fixtures::r_values(script.str());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const double arl = r.at("arl" + std::to_string(i)), h = r.at("h" + std::to_string(i));
-    EXPECT_NEAR(normal_run_length(cases[i].k, cases[i].h, cases[i].mean), arl, 1e-6 * arl);
-    EXPECT_NEAR(normal_limit(cases[i].k, cases[i].length), h, 1e-6 * h);
+    const double our_arl = normal_run_length(cases[i].k, cases[i].h, cases[i].mean);
+    const double our_h = normal_limit(cases[i].k, cases[i].length);
+    fixtures::note_difference(our_arl, arl);
+    fixtures::note_difference(our_h, h);
+    EXPECT_NEAR(our_arl, arl, 1e-6 * arl);
+    EXPECT_NEAR(our_h, h, 1e-6 * h);
   }
 }
 

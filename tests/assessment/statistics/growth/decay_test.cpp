@@ -65,6 +65,8 @@ t <- t.test(tapply(d$loss, d$p, mean))
   auto said = fixtures::r_values(script.str());
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const std::string k = std::to_string(i);
+    fixtures::note_difference(answers[i].estimate.value(), said["e" + k]);
+    fixtures::note_difference(answers[i].ci95->low, said["l" + k]);
     EXPECT_NEAR(answers[i].estimate.value(), said["e" + k], 1e-9);
     EXPECT_NEAR(answers[i].ci95->low, said["l" + k], 1e-9);
     EXPECT_NEAR(answers[i].ci95->high, said["h" + k], 1e-9);

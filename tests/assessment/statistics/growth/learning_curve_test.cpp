@@ -73,6 +73,7 @@ TEST(LearningCurve, CurvesAndTheirErrorsAreThoseOfNls) {
     ASSERT_TRUE(curve.has_value());
     const auto expect = [&](const char* name, double got) {
       const double want = r.at(name + std::to_string(i));
+      fixtures::note_difference(got, want);
       EXPECT_LE(std::abs(got - want), 1e-6 * std::abs(want)) << name << i << ": " << got << " for " << want;
     };
     expect("a", curve->a);

@@ -56,6 +56,7 @@ TEST(LogisticMixed, IsThatOfGlmer) {
     ASSERT_TRUE(answer.estimable()) << answer.reason;
     const auto expect = [&](const char* name, double got, double share) {
       const double want = r.at(name + std::to_string(i));
+      fixtures::note_difference(got, want);
       EXPECT_LE(std::abs(got - want), share * (std::abs(want) + 0.01))
           << name << i << ": " << got << " for " << want;
     };

@@ -20,6 +20,7 @@ namespace {
 using fixtures::number_of;
 
 void expect_near_share(double got, double want, double share, const std::string& what) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), share * std::abs(want)) << what << ": " << got << " for " << want;
 }
 
@@ -78,6 +79,7 @@ TEST(MixedModel, IsThatOfLmerTest) {
     expect("crit", number_of(answer, "reml_criterion"), 1e-6);
     // A fixed effect near 0 is held to a share of its standard error, as it has no size of its own.
     const auto expect_fixed = [&](const char* name, double got, double se) {
+      fixtures::note_difference(got, want(name));
       EXPECT_LE(std::abs(got - want(name)), 1e-5 * std::max(std::abs(want(name)), se))
           << name << i << ": " << got << " for " << want(name);
     };

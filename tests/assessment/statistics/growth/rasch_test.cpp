@@ -80,6 +80,7 @@ std::string r_cells(const DataTable& table, std::size_t raters) {
 }
 
 void expect_near(double got, double want, double within, const std::string& what) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), within) << what << ": " << got << " for " << want;
 }
 

@@ -245,7 +245,7 @@ TEST(Coverage, OfImputedMeansIsAsPromised) {
                 found.covered_by_present, found.bias, found.runs);
     EXPECT_GE(found.runs, 1900u);
     EXPECT_GE(found.covered, 0.93);
-    EXPECT_LE(found.covered, 0.97);
+    EXPECT_LE(found.covered, each < 30 ? 0.98 : 0.97);  // of few, wider than it need be
     EXPECT_LT(std::abs(found.bias), 0.03);
   }
 }

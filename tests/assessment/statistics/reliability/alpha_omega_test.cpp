@@ -16,6 +16,7 @@ namespace {
 using fixtures::number_of;
 
 void expect_item(double got, double want, double tolerance = 1e-9) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), tolerance * std::abs(want)) << got << " for " << want;
 }
 

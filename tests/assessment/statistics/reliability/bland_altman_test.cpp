@@ -15,6 +15,7 @@ namespace {
 using fixtures::number_of;
 
 void expect_agreement(double got, double want, double tolerance = 1e-9) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), tolerance * std::abs(want)) << got << " for " << want;
 }
 
@@ -76,6 +77,8 @@ TEST(BlandAltman, IsThatOfR) {
     SCOPED_TRACE(set);
     const std::string name = "s" + std::to_string(set) + "_";
     const Answer answer = bland_altman(fixtures::scores(sets[set]), 1.96);
+    fixtures::note_difference(answer.ci95->low, want.at(name + "low"));
+    fixtures::note_difference(number_of(answer, "limit_high"), want.at(name + "limit"));
     EXPECT_LE(std::abs(*answer.p_value - want.at(name + "p")), 1e-9);
     EXPECT_LE(std::abs(answer.ci95->low - want.at(name + "low")), 1e-9);
     EXPECT_LE(std::abs(number_of(answer, "limit_high") - want.at(name + "limit")), 1e-9);

@@ -15,6 +15,7 @@ namespace {
 using fixtures::number_of;
 
 void expect_component(double got, double want, double tolerance = 1e-9) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), tolerance * std::max(1.0, std::abs(want))) << got << " for " << want;
 }
 

@@ -20,6 +20,7 @@ const fixtures::Rows kShroutFleiss = {{9, 2, 5, 8}, {6, 1, 3, 2},  {8, 4, 6, 8},
                                       {7, 1, 2, 6}, {10, 5, 6, 9}, {6, 2, 4, 7}};
 
 void expect_icc(double got, double want, double tolerance = 1e-9) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), tolerance * std::abs(want)) << got << " for " << want;
 }
 
@@ -116,10 +117,16 @@ TEST(Icc, IsThatOfPsych) {
               "p', i), r$p[i]) }\n";
   }
   const std::map<std::string, double> want = fixtures::r_values(script);
+  std::size_t of_rounding = 0;
   for (std::size_t set = 0; set < answers.size(); ++set) {
     SCOPED_TRACE(set);
     ASSERT_TRUE(answers[set].estimable());
     const std::string name = "s" + std::to_string(set) + "_";
+    // Where subjects do not differ at all, or nothing but subjects does, R divides by what rounding leaves of 0.
+    if (!(want.at(name + "f1") > 1e-12 && want.at(name + "f1") < 1e12 && want.at(name + "f2") < 1e12)) {
+      ++of_rounding;
+      continue;
+    }
     for (std::size_t i = 0; i < 6; ++i) {
       const std::string number = std::to_string(i + 1);
       // Of an ICC near 0 it is the absolute difference that tells.
@@ -136,6 +143,7 @@ TEST(Icc, IsThatOfPsych) {
     expect_icc(*answers[set].statistic, want.at(name + "f1"));
     expect_icc(*answers[set].p_value, want.at(name + "p1"), 1e-8);
   }
+  EXPECT_LE(100 * of_rounding, answers.size());
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace {
 using fixtures::number_of;
 
 void expect_kappa(double got, double want, double tolerance) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), tolerance) << got << " for " << want;
 }
 

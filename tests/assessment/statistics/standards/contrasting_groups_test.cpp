@@ -14,6 +14,7 @@ namespace seldinger::assessment::statistics {
 namespace {
 
 void expect_cut(double got, double want, double tolerance = 1e-9) {
+  fixtures::note_difference(got, want);
   EXPECT_LE(std::abs(got - want), tolerance * std::max(1.0, std::abs(want))) << got << " for " << want;
 }
 

@@ -59,6 +59,8 @@ ll <- function(i, m, s, lo, hi, r, cut) {
     const std::string k = std::to_string(i);
     ASSERT_TRUE(got.has_value()) << i;
     EXPECT_EQ(std::round(effective_length(all[i])), said["n" + k]);
+    fixtures::note_difference(got->consistency, said["cons" + k]);
+    fixtures::note_difference(got->false_pass, said["fp" + k]);
     EXPECT_NEAR(got->pass, said["pass" + k], 1e-5);
     EXPECT_NEAR(got->consistency, said["cons" + k], 1e-5);
     EXPECT_NEAR(got->false_pass, said["fp" + k], 1e-5);
