@@ -28,12 +28,15 @@ struct VolumeOfCase {
 };
 
 enum class XrayOutput { line_integral, intensity, display };
+// What is scattered onto the panel, with or without a grid before it; none: the picture is primary only.
+enum class SceneScatter { none, open, grid };
 struct XrayView {
   imaging::XrayGeometry geometry;
   double energy_kev = imaging::kHuEnergyKev;
   imaging::ProjectionMethod method = imaging::ProjectionMethod::exact;
   XrayOutput output = XrayOutput::line_integral;
   int supersampling = 1;  // rays a pixel in each direction
+  SceneScatter scatter = SceneScatter::none;
 };
 enum class UltrasoundOutput { display, envelope_db, polar_db };
 struct UltrasoundSceneView {

@@ -217,6 +217,13 @@ XrayView read_xray(const Json& json, base::Error& error, std::vector<std::string
   view.output = output == "line_integral" ? XrayOutput::line_integral
                 : output == "intensity"   ? XrayOutput::intensity
                                           : XrayOutput::display;
+  const std::string scatter = reader.choice("scatter", {"none", "open", "grid"}, "none");
+  view.scatter = scatter == "open"   ? SceneScatter::open
+                 : scatter == "grid" ? SceneScatter::grid
+                                     : SceneScatter::none;
+  if (view.scatter != SceneScatter::none &&
+      (view.output == XrayOutput::line_integral || !view.geometry.source_lps_mm))
+    reader.bad("scatter", "is of an intensity or display, with source_mm: a line integral is primary only");
   const double rays = reader.number("supersampling", 1.0, 8.0, 1.0);
   view.supersampling = static_cast<int>(rays);
   if (view.supersampling != rays || view.supersampling * std::max(size[0], size[1]) > kMaxPixels)

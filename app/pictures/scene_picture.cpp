@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
 
 #include "app/pictures/xray_sight.h"
 #include "casedb/import/skin/surface.h"
@@ -15,6 +16,7 @@
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/view/organs.h"
+#include "sim/imaging/xray/beam/scatter.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection/coarse.h"
@@ -81,6 +83,26 @@ imaging::PathLengths path_lengths(const volume::Volume& volume, const imaging::X
       on_cpu);
 }
 
+// What scatter adds to every pixel: what it is behind water as thick as the patient is on the mean in the field.
+double pedestal_of(const volume::Volume& volume, const XrayView& view, double water_per_mm,
+                   const std::vector<float>& log_signal) {
+  const imaging::XrayGeometry& g = view.geometry;
+  double sum = 0.0, count = 0.0;
+  for (const float one : log_signal)
+    if (one < 0.0F) {
+      sum -= static_cast<double>(one);
+      count += 1.0;
+    }
+  if (count == 0.0) return 0.0;
+  const glm::dvec3 middle(volume.lps_from_voxel * glm::dvec4(0.5 * glm::dvec3(volume.size_voxels - 1), 1.0));
+  imaging::ScatterGeometry scatter;
+  scatter.water_mm = sum / count / water_per_mm;
+  scatter.field_mm = g.pixel_mm * std::sqrt(static_cast<double>(g.width_px) * g.height_px);
+  scatter.gap_mm = std::abs(glm::dot(g.detector_center_lps_mm - middle, glm::cross(g.u, g.v)));
+  scatter.grid = view.scatter == SceneScatter::grid;
+  return std::exp(-sum / count) * imaging::scatter_to_primary(scatter);
+}
+
 void render_xray(const volume::Volume& volume, const XrayView& view, const imaging::Inserted& inserted,
                  ScenePicture& picture) {
   const imaging::XrayGeometry& g = view.geometry;
@@ -101,6 +123,14 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
     log_signal[i] = static_cast<float>(-line_integral);
     picture.values[i] =
         static_cast<float>(view.output == XrayOutput::intensity ? std::exp(-line_integral) : line_integral);
+  }
+  if (view.scatter != SceneScatter::none) {
+    const double pedestal = pedestal_of(volume, view, mu.water_per_mm, log_signal);
+    for (std::size_t i = 0; i < log_signal.size(); ++i) {
+      const double signal = std::exp(static_cast<double>(log_signal[i])) + pedestal;
+      log_signal[i] = static_cast<float>(std::log(signal));
+      picture.values[i] = static_cast<float>(signal);
+    }
   }
   const imaging::LogWindow window =
       imaging::window_of(log_signal, g.width_px, imaging::open_field(g.width_px, g.height_px, {}));

@@ -106,6 +106,28 @@ TEST(RenderXray, OutputsAreWhatTheySay) {
   for (const float grey : display.values) ASSERT_TRUE(grey >= 0.0F && grey <= 255.0F);
 }
 
+// 100 mm of water, a field of 65 mm at the panel, 400 mm behind the water's middle: 3.8 % of the mean.
+TEST(RenderXray, ScatterIsAPedestalThatAGridAndANarrowFieldTakeAway) {
+  Json scene = water_scene();
+  scene["view"]["output"] = "intensity";
+  const Picture primary = render(scene);
+  scene["view"]["scatter"] = "open";
+  const Picture open = render(scene);
+  ASSERT_EQ(open.ran.exit_code, 0) << open.ran.err;
+  const double pedestal = open.at(32, 32) - primary.at(32, 32);
+  EXPECT_NEAR(pedestal / primary.at(32, 32), 0.0376, 0.001);
+  for (const int column : {0, 13, 64}) EXPECT_NEAR(open.at(column, 5) - primary.at(column, 5), pedestal, 1e-6);
+  scene["view"]["scatter"] = "grid";
+  EXPECT_NEAR(render(scene).at(32, 32) - primary.at(32, 32), 0.15 / 0.70 * pedestal, 1e-6);
+  scene["view"]["scatter"] = "open";
+  scene["view"]["pixel_mm"] = 0.5;
+  EXPECT_NEAR(render(scene).at(32, 32) - primary.at(32, 32), pedestal / std::sqrt(8.0), 0.01 * pedestal);
+  scene["view"]["output"] = "line_integral";
+  const Picture refused = render(scene);
+  EXPECT_EQ(refused.ran.exit_code, 3);
+  EXPECT_NE(refused.ran.err.find("scatter"), std::string::npos) << refused.ran.err;
+}
+
 TEST(RenderXray, NeedleAndLesionAreTheirChords) {
   Json scene = water_scene();
   scene["needle"] = {{"tip_mm", {0, 0, 0}}, {"direction", {1, 0, 0}}, {"length_mm", 30}, {"radius_mm", 0.635}};
