@@ -63,7 +63,7 @@ const glm::dvec3 kCalyx{-68.0, 40.0, -50.0};
 Structures about_the_calyx(double radius_mm, double urine_hu) {
   return {labelled("kidney", StructureRule::must_cross), labelled("colon", StructureRule::critical),
           labelled("lung", StructureRule::critical), labelled("pleural_recess", StructureRule::critical),
-          labelled("liver", StructureRule::major), labelled("collecting_system", StructureRule::advisory),
+          labelled("liver", StructureRule::major),
           drawn("renal_pelvis", StructureRule::critical, TissueClass::fluid,
                 cases::Ellipsoid{{-48.0, 38.0, -27.0}, {9.0, 6.0, 10.0}}, urine_hu),
           // Beside the calyx's neck, between pyramids: who aims at the calyx's end stays clear of it.

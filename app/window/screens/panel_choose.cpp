@@ -70,6 +70,10 @@ void ChoosePanel::draw_choices(Trainer& trainer, const Keys& keys, const std::st
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, edits ? open_px + 8.0F + edit_px : open_px);
   header_row();
+  const auto open_one = std::ranges::find(trainer.choices(), true, &Choice::open);
+  const Choice* const first = trainer.next() != nullptr             ? trainer.next()
+                              : open_one != trainer.choices().end() ? &*open_one
+                                                                    : nullptr;
   std::string chosen, versioned;
   for (const Choice& choice : trainer.choices()) {
     if (choice.curriculum != curriculum) continue;
@@ -94,7 +98,7 @@ void ChoosePanel::draw_choices(Trainer& trainer, const Keys& keys, const std::st
     ImGui::BeginDisabled(!choice.open);
     const bool next = trainer.next() == &choice;
     const bool open = ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F});
-    if (next) ImGui::SetItemDefaultFocus();  // Enter does what the button says, wherever it was pressed before
+    if (first == &choice) ImGui::SetItemDefaultFocus();  // after a log-in by keys Enter begins to practise
     note_item("Practise");
     if (framed()) note_focus("Practise: " + choice.title);
     if (open || (next && keys.pressed(kEnter))) chosen = choice.case_id;
