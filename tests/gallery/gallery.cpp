@@ -116,7 +116,7 @@ TEST_F(Gallery, CaseEditor) {
   ask("case structure " + draft +
       " --name vein --rule critical --tissue vessel --tube -70,-10,-30 --tube -80,0,0 --tube -75,10,30 --radius-mm "
       "4");
-  ask("case setting " + draft + " --title 'Liver, intercostal' --entry-mm -160,10,-15 --pass 'hit >= 1'");
+  ask("case setting " + draft + " --title 'Liver, intercostal' --entry-mm -167.4,8.9,-15 --pass 'hit >= 1'");
   fixtures::Trainee trainee(program, made, scratch_, with({}));
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   trainee.click("Open draft#2");  // the first is the demo's own, which attempts have frozen
