@@ -36,8 +36,9 @@ std::string tissue_text(const volume::TissueTold& told) {
   for (const std::size_t at : order) {
     if (!(told.share[at] > 0.0)) break;
     const long percent = std::lround(100.0 * told.share[at]);
-    text += std::string(at == order.front() ? " " : ", ") +
-            volume::about(static_cast<volume::TissueClass>(at)).name + " " +
+    std::string name = volume::about(static_cast<volume::TissueClass>(at)).name;  // "soft_tissue"
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += std::string(at == order.front() ? " " : ", ") + name + " " +
             (percent > 0 ? std::to_string(percent) : std::string("< 1")) + " %";
   }
   text += "\n";

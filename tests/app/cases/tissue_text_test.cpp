@@ -10,12 +10,12 @@ TEST(TissueText, PhaseSharesAndDoubtsAreLines) {
   volume::TissueTold told;
   told.contrast = {volume::ContrastPhase::venous, 176, false};
   told.share[static_cast<std::size_t>(volume::TissueClass::fat)] = 0.7512;
-  told.share[static_cast<std::size_t>(volume::TissueClass::bone)] = 0.2468;
+  told.share[static_cast<std::size_t>(volume::TissueClass::soft_tissue)] = 0.2468;
   told.share[static_cast<std::size_t>(volume::TissueClass::metal)] = 0.002;
   told.doubts = {"metal streaks what lies beside it, whose classes are guesses"};
   EXPECT_EQ(tissue_text(told),
             "contrast venous phase: 30 ml of blood and organs are at 176 HU or more\n"
-            "tissue   fat 75 %, bone 25 %, metal < 1 %\n"
+            "tissue   fat 75 %, soft tissue 25 %, metal < 1 %\n"
             "doubtful: metal streaks what lies beside it, whose classes are guesses\n");
   told.contrast = {volume::ContrastPhase::none, 60, false};
   EXPECT_TRUE(tissue_text(told).starts_with("contrast none\n"));
