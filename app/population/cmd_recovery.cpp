@@ -14,6 +14,7 @@
 #include "app/cli/version.h"
 #include "app/population/recovery.h"
 #include "assessment/registry.h"
+#include "assessment/statistics/reasons.h"
 #include "assessment/statistics/standards/contrasting_groups.h"
 #include "casedb/people/simulated_people.h"
 #include "reports/learning/case_report.h"
@@ -159,7 +160,12 @@ void add_cuts(const reports::ReportedCase& reported, const std::map<std::string,
         cut_of(values_in(novices->second.others, criterion), values_in(experts->second.others, criterion));
     const statistics::Answer found =
         cut_of(first_values(novices->second.own, criterion), first_values(experts->second.own, criterion));
-    if (!truth.estimate || !truth.ci95) continue;
+    if (!truth.estimate || !truth.ci95) {
+      const auto* reason = statistics::find_reason(truth.reason.c_str());
+      section.refused.push_back(metric_at(reported, criterion) + ": " +
+                                (reason != nullptr ? reason->words : "there is no interval"));
+      continue;
+    }
     section.numbers.push_back({metric_at(reported, criterion), *truth.estimate,
                                (truth.ci95->high - truth.ci95->low) / (2.0 * 1.96), found.estimate, found.ci95});
   }

@@ -255,6 +255,9 @@ std::string text_of_recovery(const std::string& of, const std::vector<RecoverySe
       "is asked.\n";
   for (const RecoverySection& one : sections) {
     text += "\n## " + one.title + "\n\n" + one.words + "\n";
+    if (!one.refused.empty()) text += "\nNot estimable:\n\n";
+    for (const std::string& what : one.refused) text += "- " + what + "\n";
+    if (one.numbers.empty() && !one.refused.empty()) continue;
     if (one.numbers.empty()) {
       text += "\nNothing could be estimated.\n";
       continue;

@@ -28,6 +28,7 @@ struct PlantedNumber {
 struct RecoverySection {
   std::string title, words;
   std::vector<PlantedNumber> numbers;
+  std::vector<std::string> refused{};  // what could not be told of what was planted itself, and why
   std::size_t held() const;
   std::size_t with_interval() const;
 };

@@ -129,7 +129,7 @@ LumenContent content_of(volume::TissueClass tissue, std::string_view name) {
   if (tissue == volume::TissueClass::vessel)
     return says_vein(std::string(name)) ? LumenContent::venous_blood : LumenContent::arterial_blood;
   if (tissue != volume::TissueClass::fluid) return LumenContent::none;
-  if (says_any(name, {"gall", "bil", "chol", "hepatic_duct"})) return LumenContent::bile;
+  if (says_any(name, {"gall", "bile", "biliar", "chol", "hepatic_duct"})) return LumenContent::bile;
   if (says_any(name, {"calyx", "calyces", "pelvis", "collecting", "ureter", "bladder", "urin"}))
     return LumenContent::urine;
   return LumenContent::fluid;

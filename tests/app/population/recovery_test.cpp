@@ -87,5 +87,13 @@ TEST(Recovery, SaysFirstThatAllOfItIsSimulated) {
   EXPECT_THAT(text, HasSubstr("| a | 0.5 | 0.4 |  |  |"));
 }
 
+TEST(Recovery, SaysWhyNothingIsThere) {
+  const RecoverySection cuts{"Cuts", "Of two groups.", {}, {"Drill, depth, mm: the groups are the same"}};
+  EXPECT_THAT(text_of_recovery("A library.", {cuts}),
+              HasSubstr("Of two groups.\n\nNot estimable:\n\n- Drill, depth, mm: the groups are the same\n"));
+  EXPECT_THAT(text_of_recovery("A library.", {{"Cuts", "Of two groups.", {}}}),
+              HasSubstr("Of two groups.\n\nNothing could be estimated.\n"));
+}
+
 }  // namespace
 }  // namespace seldinger::app

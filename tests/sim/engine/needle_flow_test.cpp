@@ -86,6 +86,7 @@ TEST(Lumens, AreToldByClassAndName) {
   EXPECT_EQ(content_of(TissueClass::fluid, "bladder"), LumenContent::urine);
   EXPECT_EQ(content_of(TissueClass::fluid, "gallbladder"), LumenContent::bile);
   EXPECT_EQ(content_of(TissueClass::fluid, "common_bile_duct"), LumenContent::bile);
+  EXPECT_EQ(content_of(TissueClass::fluid, "bilateral renal pelvis"), LumenContent::urine);
   EXPECT_EQ(content_of(TissueClass::fluid, "abscess"), LumenContent::fluid);
   EXPECT_EQ(content_of(TissueClass::vessel, "vena_cava"), LumenContent::venous_blood);
   EXPECT_EQ(content_of(TissueClass::vessel, "carotid"), LumenContent::arterial_blood);
