@@ -114,13 +114,13 @@ const jobs = {
     await look(page, "attempt");
     await page.getByRole("link", { name: "What was on the screen" }).click();
     await page.locator(".strip img").first().waitFor();
-    await look(page, "pictures");
     const broken = await page.locator(".strip img").evaluateAll(async (all) => {
       for (const one of all) one.loading = "eager";
       await Promise.all(all.map((one) => one.decode().catch(() => {})));
       return all.filter((one) => one.naturalWidth !== Number(one.getAttribute("width"))).length;
     });
     expect(broken === 0, `${broken} small pictures are not there`);
+    await look(page, "pictures");
     const whole = await page.request.get(await page.locator(".strip a").first().evaluate((one) => one.href));
     expect(whole.ok() && whole.headers()["content-type"] === "image/png", "the whole picture does not open");
     await page.getByRole("link", { name: "About you" }).click();
