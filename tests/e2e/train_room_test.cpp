@@ -23,12 +23,19 @@ using fixtures::kPassword;
 class TrainRoomTest : public testing::Test {
  protected:
   // An easy core biopsy, its entry where straight down leads to the target.
-  static void SetUpTestSuite() {
-    library_.emplace(fixtures::fresh_folder("train_room"));
+  static void SetUpTestSuite() { open_library("train_room", "--instrument core --throw-mm 22"); }
+  static void open_library(const std::string& name, const std::string& instrument, const std::string& target = {}) {
+    library_.emplace(fixtures::fresh_folder(name));
     const std::string case_id = fixtures::draft_of_course(*library_);
-    library_->done(
-        "case setting " + case_id + " --entry-mm " + fixtures::straight_way(*library_, case_id).entry() +
-        " --instrument core --throw-mm 22 --difficulty easy --inr 1.1 --platelets 210 --pass 'hit >= 1'");
+    way_ = fixtures::straight_way(*library_, case_id);
+    if (!target.empty()) {
+      const Json was = library_->ask("case show " + case_id)["lesions"][0];
+      const std::string lesion = "case lesion " + case_id;
+      library_->done(lesion + " --remove " + was["lesion_id"].get<std::string>());
+      library_->done(lesion + " --center-mm " + fixtures::place_words(way_.target_lps_mm) + " " + target);
+    }
+    library_->done("case setting " + case_id + " --entry-mm " + way_.entry() + " " + instrument +
+                   " --difficulty easy --inr 1.1 --platelets 210 --pass 'hit >= 1'");
     library_->done("case publish " + case_id + " --by mona --own-cohort");
   }
 
@@ -72,8 +79,17 @@ class TrainRoomTest : public testing::Test {
   }
 
   static inline std::optional<fixtures::CommandLibrary> library_;
+  static inline fixtures::StraightWay way_;
   std::filesystem::path folder_;
   std::unique_ptr<fixtures::Trainee> trainee_;
+};
+
+// An open needle into a cyst.
+class TrainFlowTest : public TrainRoomTest {
+ protected:
+  static void SetUpTestSuite() {
+    open_library("train_flow", "--instrument access --gauge 18", "--radius-mm 10 --kind cyst");
+  }
 };
 
 TEST_F(TrainRoomTest, AFireIsHeardSeenAndToldUntilTheNeedleIsOut) {
@@ -134,6 +150,33 @@ TEST_F(TrainRoomTest, WhatIsSaidShowsThatItIsDoneAndWhatItDid) {
   EXPECT_TRUE(comes("may breathe again")) << now();
   EXPECT_TRUE(goes("breath is held")) << now();
   trainee_->keep_picture();
+}
+
+TEST_F(TrainFlowTest, AnOpenNeedleTellsWhatItIsInAndContrastRunsIn) {
+  ASSERT_NO_FATAL_FAILURE(enter());
+  trainee_->prepare();
+  press("slash");
+  EXPECT_TRUE(comes("nothing comes out of the open needle")) << "in the air: " << now();
+  press("backslash");
+  EXPECT_TRUE(comes("the contrast drips away")) << now();
+  press("slash");
+  EXPECT_TRUE(comes("The stylet is in again.")) << now();
+  ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(glm::distance(way_.entry_lps_mm, way_.target_lps_mm)));
+  trainee_->keep_picture();
+  press("slash");
+  EXPECT_TRUE(comes("The stylet is out: watch what comes back.")) << now();
+  EXPECT_TRUE(comes("reaction")) << "and over the room: " << now();
+  EXPECT_TRUE(comes("fluid drips from the open needle")) << now();
+  trainee_->keep_picture();
+  press("F3");
+  EXPECT_TRUE(comes("Aspirated through the needle: fluid comes.")) << now();
+  press("backslash");
+  EXPECT_TRUE(comes("Contrast is injected: 2 ml.")) << now();
+  EXPECT_TRUE(comes("contrast is running in")) << now();
+  EXPECT_TRUE(goes("contrast is running in")) << now();
+  press("slash");
+  EXPECT_TRUE(comes("The stylet is in again.")) << now();
+  EXPECT_TRUE(goes("from the open needle")) << now();
 }
 
 TEST_F(TrainRoomTest, TheGuidesLineIsInThePictureAndWordsSayWhenThereIsNone) {

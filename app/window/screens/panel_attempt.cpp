@@ -129,11 +129,12 @@ void AttemptPanel::draw_reaction() {
   if (info == nullptr) return;
   const std::string words = std::string("Patient: ") + info->words;
   const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::CalcTextSize(words.c_str());
-  const ImVec2 at{corner.x + 20.0F, corner.y + 14.0F};
+  const ImVec2 at{corner.x + 20.0F, corner.y + 20.0F + ImGui::GetFrameHeight()};  // below the view's button
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({at.x - 12.0F, at.y - 6.0F}, {at.x + size.x + 12.0F, at.y + size.y + 6.0F},
                       IM_COL32(120, 40, 30, 220), 6.0F);
   draw->AddText(at, IM_COL32(255, 240, 230, 255), words.c_str());
+  note_place("reaction", at.x - 12.0F, at.y - 6.0F, size.x + 24.0F, size.y + 12.0F);
 }
 
 void AttemptPanel::tell(TraceLine& line) {
