@@ -32,13 +32,15 @@ void check_step_names(const Schema& schema) {
   }
 }
 
-void walk(Sqlite& database, const Schema& schema, int step) {
+// From `first` to `last`, whole or not at all.
+void walk(Sqlite& database, const Schema& schema, int first, int last) {
   Transaction transaction(database);
-  if (database.integer("PRAGMA user_version") >= step) return;  // another process was faster
-  const auto differences = digest_differences(database);        // damage stays damage
-  if (step == 1) database.run("PRAGMA application_id = " + std::to_string(schema.application_id));
-  database.run(std::string(schema.steps[static_cast<std::size_t>(step) - 1].content));
-  database.run("PRAGMA user_version = " + std::to_string(step));
+  if (database.integer("PRAGMA user_version") >= first) return;  // another process was faster
+  const auto differences = digest_differences(database);         // damage stays damage
+  if (first == 1) database.run("PRAGMA application_id = " + std::to_string(schema.application_id));
+  for (int step = first; step <= last; ++step)
+    database.run(std::string(schema.steps[static_cast<std::size_t>(step) - 1].content));
+  database.run("PRAGMA user_version = " + std::to_string(last));
   if (has_digests(database)) renew_digests(database, differences);
   transaction.commit();
 }
@@ -138,8 +140,10 @@ base::Result<void> migrate(Sqlite& database, const Schema& schema) {
 }
 
 void build(Sqlite& database, const Schema& schema, int version) {
-  for (auto step = static_cast<int>(database.integer("PRAGMA user_version")) + 1; step <= version; ++step)
-    walk(database, schema, step);
+  const auto first = static_cast<int>(database.integer("PRAGMA user_version")) + 1;
+  if (first == 1 && version > 0)
+    return walk(database, schema, first, version);  // of nothing there is one digest to take
+  for (int step = first; step <= version; ++step) walk(database, schema, step, step);
 }
 
 void copy_database(Sqlite& database, const fs::path& file) {

@@ -191,7 +191,8 @@ std::vector<std::uint32_t> Lumens::filling_order(const Lumen& lumen, const glm::
   open.push({0.0, first});
   std::vector<std::uint32_t> order;
   while (!open.empty()) {
-    const auto [mm, place] = open.top();
+    const double mm = open.top().first;
+    const auto place = open.top().second;
     open.pop();
     if (mm > way_mm[place]) continue;
     order.push_back(lumen.voxels[place]);
