@@ -46,12 +46,13 @@ FullTable best_of(const Passes& passes, std::size_t occasions) {
   std::stable_sort(cases.begin(), cases.end(),
                    [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
   FullTable best, now{{}, {}, occasions};
-  for (const auto& [family, persons] : cases) {
+  for (const auto& one_case : cases) {
+    const std::set<std::string>& persons = one_case.second;
     if (now.cases.empty())
       now.persons = persons;
     else
       std::erase_if(now.persons, [&](const std::string& one) { return !persons.contains(one); });
-    now.cases.push_back(family);
+    now.cases.push_back(one_case.first);
     if (now.cells() >= best.cells()) best = now;
   }
   return best;
