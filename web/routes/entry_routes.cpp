@@ -3,6 +3,7 @@
 #include "reports/pages/login_page.h"
 #include "reports/pages/style_sheet.h"
 #include "sim/base/failure.h"
+#include "web/json/attempt_json.h"
 #include "web/json/case_json.h"
 #include "web/routes/shelves.h"
 #include "web/site/site.h"
