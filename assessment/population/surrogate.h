@@ -54,7 +54,7 @@ class Surrogate {
   static base::Result<Surrogate> fit(SurrogateMark mark, std::vector<SimulatedPoint> points);
 
   const SurrogateMark& mark() const noexcept { return mark_; }
-  std::size_t points() const noexcept { return points_.size(); }
+  const std::vector<SimulatedPoint>& attempts() const noexcept { return points_; }
   std::size_t index_of(const std::string& metric) const;  // npos: there is no such one
   // Of an attempt at that place. The same stream, the same draw.
   Values draw(const Place& place, std::uint64_t stream) const;

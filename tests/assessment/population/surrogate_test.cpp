@@ -36,6 +36,49 @@ TEST(Surrogate, AWrongOneIsFoundOut) {
   EXPECT_GT(agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3).quantiles_beyond_chance, 0U);
 }
 
+// What groups differ by, in 300 attempts of each that it does not know; and the same of the other way round is
+// found out.
+TEST(Surrogate, GroupsDifferAsTheirWholeAttemptsDo) {
+  const auto less = attempts_of({0.0}, 78, 300), more = attempts_of({0.8}, 79, 300);
+  const auto effects = effects_of(fitted(), less, more, 20, 3);
+  ASSERT_EQ(effects.size(), 3U) << "one is the same in all";
+  for (const EffectAgreement& one : effects) {
+    EXPECT_LT(std::abs(one.area_drawn - one.area), 3.0 * one.area_error) << one.metric;
+    EXPECT_LT(std::abs(one.d_drawn - one.d), 3.0 * one.d_error) << one.metric;
+    EXPECT_LT(std::abs(one.pairs), 0.2) << one.metric;  // of people of other seeds, 3.4 errors
+  }
+  const auto distance = std::find_if(effects.begin(), effects.end(),
+                                     [](const EffectAgreement& one) { return one.metric == "tip_target_dist"; });
+  ASSERT_NE(distance, effects.end());
+  EXPECT_LT(distance->d_drawn, 0.0) << "the able are nearer";
+  EXPECT_NEAR(distance->d_error, std::sqrt(2.0 / 270.0), 0.01);
+  // A surrogate whose people do the opposite draws the opposite difference.
+  std::vector<SimulatedPoint> points = attempts_of({0.0, 1.2}, 1, 2000);
+  for (SimulatedPoint& one : points) one.place[1] = 1.2 - one.place[1];
+  const auto wrong = Surrogate::fit(known_mark(), points);
+  for (const EffectAgreement& one : effects_of(*wrong, less, more, 20, 3)) {
+    if (one.metric != "tip_target_dist") continue;
+    EXPECT_GT(one.area_drawn - one.area, 3.0 * one.area_error);
+    EXPECT_GT(one.d_drawn - one.d, 3.0 * one.d_error);
+  }
+}
+
+// 10 of 100 are 1 and the others 0: the mid-distribution is .45 at 0 and .95 at 1, so the 90 % quantile is .9, and
+// a surrogate that has one more in a hundred moves it by .01, not by a whole unit as a plain quantile would.
+TEST(Surrogate, AShareThatPassesAMarkIsNoJump) {
+  const auto held = [](std::size_t ones) {
+    std::vector<SimulatedPoint> points = attempts_of({0.0}, 1, 100);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (auto& value : points[p].values)
+        if (value) value = p < ones ? 1.0 : 0.0;
+    return points;
+  };
+  const auto surrogate = Surrogate::fit(known_mark(), held(9));
+  const auto agreement = agreement_of(*surrogate, held(11), 200, 3);
+  ASSERT_FALSE(agreement.metrics.empty());
+  for (const MetricAgreement& one : agreement.metrics) EXPECT_LT(std::abs(one.quantile_sd), 0.5) << one.metric;
+}
+
 // E ln distance is .5 − .4 E θ: between the shifts it falls by .4 times the shift.
 TEST(Surrogate, FollowsAbilityByTheRightAmount) {
   const std::size_t distance = fitted().index_of("tip_target_dist");
