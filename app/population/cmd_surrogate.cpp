@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "app/acting/acting.h"
@@ -102,19 +103,14 @@ base::Result<std::vector<Level>> levels_of_files(const Arguments& arguments,
   return levels;
 }
 
-base::Result<std::vector<Level>> levels_of_groups(const Arguments& arguments,
+base::Result<std::vector<Level>> levels_of_groups(Ready& made, const std::vector<population::Group>& groups,
                                                   const population::Surrogate& surrogate) {
-  const auto groups =
-      groups_of(arguments, {*population::named_group("novice"), *population::named_group("intermediate"),
-                            *population::named_group("expert")});
-  auto made = ready(arguments, 500, 30, 1'000'001);
-  if (!made) return made.error();
-  if (const std::string other = difference(surrogate.mark(), mark_of_case(made->library, made->simulation));
+  if (const std::string other = difference(surrogate.mark(), mark_of_case(made.library, made.simulation));
       !other.empty())
     return base::Error{"other_surrogate", "the surrogate is of " + other};
   std::vector<Level> levels;
   for (const population::Group& group : groups) {
-    auto points = simulated_points(made->simulation, {group}, made->seed, made->attempts, made->jobs);
+    auto points = simulated_points(made.simulation, {group}, made.seed, made.attempts, made.jobs);
     if (!points) return points.error();
     levels.push_back({group.name, std::move(*points)});
   }
@@ -122,13 +118,22 @@ base::Result<std::vector<Level>> levels_of_groups(const Arguments& arguments,
 }
 
 int run_surrogate_check(const Arguments& arguments) {
-  if (arguments.has("--against"))
+  const auto groups =
+      groups_of(arguments, {*population::named_group("novice"), *population::named_group("intermediate"),
+                            *population::named_group("expert")});
+  std::optional<Ready> simulated_by;
+  if (arguments.has("--against")) {
     for (const char* option : {"--case", "--library", "--group", "--attempts", "--seed", "--jobs"})
       if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with --against");
+  } else {
+    auto simulating = ready(arguments, 500, 30, 1'000'001);
+    if (!simulating) return refuse(simulating.error());
+    simulated_by = std::move(*simulating);
+  }
   const auto surrogate = surrogate_of(arguments);
   if (!surrogate) return refuse(surrogate.error());
   const auto levels =
-      arguments.has("--against") ? levels_of_files(arguments, *surrogate) : levels_of_groups(arguments, *surrogate);
+      simulated_by ? levels_of_groups(*simulated_by, groups, *surrogate) : levels_of_files(arguments, *surrogate);
   if (!levels) return refuse(levels.error());
   SurrogateAgreement made;
   for (const Level& one : *levels) {
