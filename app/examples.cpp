@@ -51,7 +51,7 @@ constexpr std::string_view kLines[] = {
     "simulate merge other --library first-hour",
     "surrogate fit --case 'Drill 1' --attempts 60 --out drill.json --library first-hour",
     "surrogate check --case 'Drill 1' --surrogate drill.json --attempts 30 --library first-hour",
-    "surrogate effects --surrogate drill.json",
+    "surrogate effects --surrogate drill.json --chart effects.svg",
     "surrogate coverage --surrogate drill.json --shift 0 --shift 0.8 --studies 100 --truth-people 10000",
     "simulate --case 'Drill 1' --operator novice --people 5 --no-pictures --library first-hour",
     "recovery --truth 10 --library first-hour",

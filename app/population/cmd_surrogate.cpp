@@ -148,10 +148,13 @@ int run_surrogate_check(const Arguments& arguments) {
 }
 
 int run_surrogate_effects(const Arguments& arguments) {
+  std::optional<std::filesystem::path> chart;
+  if (arguments.has("--chart")) chart = file_of("--chart", arguments.text("--chart"), {".svg"});
   const auto surrogate = surrogate_of(arguments);
   if (!surrogate) return refuse(surrogate.error());
   const auto people = static_cast<std::size_t>(arguments.whole("--people", 2000, 100, 1'000'000));
   const auto effects = simulated_effects(*surrogate, people, 1);
+  if (chart) write_file(*chart, svg_of_effects(effects));
   std::fputs(arguments.has("--json") ? json_of_effects(effects).c_str() : text_of_effects(effects).c_str(), stdout);
   return kDone;
 }
@@ -182,7 +185,10 @@ constexpr Option kCheckOptions[] = {
     kAgainst,
     kJobs,
     kJson};
-constexpr Option kEffectsOptions[] = {kFile, {"--people", "N", "drawn for each group; default 2000"}, kJson};
+constexpr Option kEffectsOptions[] = {kFile,
+                                      {"--people", "N", "drawn for each group; default 2000"},
+                                      {"--chart", "FILE.svg", "draw them, beside published ones, into a new file"},
+                                      kJson};
 
 }  // namespace
 

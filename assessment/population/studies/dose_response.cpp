@@ -10,9 +10,9 @@
 namespace seldinger::assessment::population {
 namespace {
 
-constexpr std::size_t kCrowd = 20'000;  // areas of so many are found at once, and their mean is the truth
-constexpr std::size_t kFewest = 2;      // with a value, in either group
-constexpr std::uint64_t kTruthStudy = 0;     // the number of the study that tells the truth: none of those drawn
+constexpr std::size_t kCrowd = 20'000;    // areas of so many are found at once, and their mean is the truth
+constexpr std::size_t kFewest = 2;        // with a value, in either group
+constexpr std::uint64_t kTruthStudy = 0;  // the number of the study that tells the truth: none of those drawn
 
 using Rows = std::vector<Values>;
 
@@ -58,64 +58,65 @@ double paired_correlation(const Rows& a, const Rows& b, std::size_t m) {
   return pp > 0.0 && qq > 0.0 ? pq / std::sqrt(pp * qq) : 0.0;
 }
 
-struct AreaSum {
-  double sum = 0.0;
-  std::size_t crowds = 0;
-};
+// By metric and shift.
+using Responses = std::vector<std::vector<MetricResponse>>;
 
-}  // namespace
-
-std::vector<MetricDose> dose_response(const Surrogate& surrogate, std::span<const double> shifts,
-                                      const DoseOptions& options) {
-  const std::size_t metrics = surrogate.mark().metrics.size();
-  std::vector<Group> groups;
-  for (const double shift : shifts) groups.push_back(shifted_group(shift));
-  std::vector<std::vector<MetricResponse>> responses(metrics, std::vector<MetricResponse>(shifts.size()));
-  std::vector<std::vector<AreaSum>> truths(metrics, std::vector<AreaSum>(shifts.size()));
+// What of each metric is true, and the pairs; answers which metrics are not the same in all.
+std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> groups, const DoseOptions& options,
+                            Responses& responses) {
+  const std::size_t metrics = responses.size();
   std::vector<bool> varies(metrics, false);
+  std::vector<std::vector<double>> sums(metrics, std::vector<double>(groups.size())), crowds = sums;
   for (std::size_t first = 1; first <= options.truth_people; first += kCrowd) {
     const std::size_t past = std::min(first + kCrowd, options.truth_people + 1);
     const Rows base = drawn_people(surrogate, others(), options.seed, kTruthStudy, first, past);
-    for (std::size_t s = 0; s < shifts.size(); ++s) {
+    for (std::size_t s = 0; s < groups.size(); ++s) {
       const Rows rows = drawn_people(surrogate, groups[s], options.seed, kTruthStudy, first, past);
       for (std::size_t m = 0; m < metrics; ++m) {
         const auto less = column(base, m), more = column(rows, m);
         if (std::min(less.size(), more.size()) < kFewest) continue;
         const auto roc = statistics::roc_area(more, less);
         varies[m] = varies[m] || roc.variance() > 0.0;
-        truths[m][s].sum += roc.area;
-        ++truths[m][s].crowds;
+        sums[m][s] += roc.area;
+        crowds[m][s] += 1.0;
         if (first == 1) responses[m][s].paired = paired_correlation(base, rows, m);
       }
     }
   }
   for (std::size_t m = 0; m < metrics; ++m)
-    for (std::size_t s = 0; s < shifts.size(); ++s)
-      if (truths[m][s].crowds > 0)
-        responses[m][s].area = truths[m][s].sum / static_cast<double>(truths[m][s].crowds);
+    for (std::size_t s = 0; s < groups.size(); ++s)
+      if (crowds[m][s] > 0.0) responses[m][s].area = sums[m][s] / crowds[m][s];
+  return varies;
+}
+
+void add_study(const Rows& base, const Rows& rows, std::size_t m, MetricResponse& one) {
+  const auto less = column(base, m), more = column(rows, m);
+  if (std::min(less.size(), more.size()) < kFewest) return;
+  const auto interval = statistics::roc_interval(statistics::roc_area(more, less));
+  ++one.intervals;
+  one.mean_width += (interval.high - interval.low - one.mean_width) / static_cast<double>(one.intervals);
+  one.covered += interval.low <= one.area && one.area <= interval.high ? 1U : 0U;
+}
+
+}  // namespace
+
+std::vector<MetricDose> dose_response(const Surrogate& surrogate, std::span<const double> shifts,
+                                      const DoseOptions& options) {
+  std::vector<Group> groups;
+  for (const double shift : shifts) groups.push_back(shifted_group(shift));
+  Responses responses(surrogate.mark().metrics.size(), std::vector<MetricResponse>(shifts.size()));
+  const std::vector<bool> varies = add_truth(surrogate, groups, options, responses);
   for (std::size_t study = 1; study <= options.studies; ++study) {
     const Rows base = drawn_people(surrogate, others(), options.seed, study, 1, options.per_group + 1);
-    for (std::size_t s = 0; s < shifts.size(); ++s) {
+    for (std::size_t s = 0; s < groups.size(); ++s) {
       const Rows rows = drawn_people(surrogate, groups[s], options.seed, study, 1, options.per_group + 1);
-      for (std::size_t m = 0; m < metrics; ++m) {
-        if (!varies[m]) continue;
-        const auto less = column(base, m), more = column(rows, m);
-        if (std::min(less.size(), more.size()) < kFewest) continue;
-        const auto interval = statistics::roc_interval(statistics::roc_area(more, less));
-        MetricResponse& one = responses[m][s];
-        ++one.intervals;
-        one.mean_width += interval.high - interval.low;
-        one.covered += interval.low <= one.area && one.area <= interval.high ? 1U : 0U;
-      }
+      for (std::size_t m = 0; m < responses.size(); ++m)
+        if (varies[m]) add_study(base, rows, m, responses[m][s]);
     }
   }
   std::vector<MetricDose> doses;
-  for (std::size_t m = 0; m < metrics; ++m) {
-    if (!varies[m]) continue;
-    for (MetricResponse& one : responses[m])
-      one.mean_width /= static_cast<double>(std::max<std::size_t>(one.intervals, 1));
-    doses.push_back({surrogate.mark().metrics[m].id, std::move(responses[m])});
-  }
+  for (std::size_t m = 0; m < responses.size(); ++m)
+    if (varies[m]) doses.push_back({surrogate.mark().metrics[m].id, std::move(responses[m])});
   return doses;
 }
 
