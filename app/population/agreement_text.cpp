@@ -39,16 +39,23 @@ void add_levels(const std::vector<LevelAgreement>& levels, std::string& text) {
     for (const LevelAgreement& one : levels) add_line(text, " %zu |", cell(one.agreement));
     text += "\n";
   };
+  const auto error_row = [&](const char* what, const auto& cell) {
+    text += std::string("| ") + what + " |";
+    for (const LevelAgreement& one : levels) add_line(text, " %.3f |", cell(one.agreement));
+    text += "\n";
+  };
   using Level = const population::Agreement&;
   row("attempts that it does not know", [](Level one) { return one.attempts; });
   row("metrics", [](Level one) { return one.metrics.size(); });
   row("metrics with a quantile (10, 50, 90 %) off by more than .1 SD", [](Level one) { return one.quantiles_off; });
   row("of those beyond 3 standard errors, too", [](Level one) { return one.quantiles_beyond_chance; });
+  error_row("root mean square of what is off beyond chance, SD", [](Level one) { return one.quantile_own_sd; });
   row("shares of nulls and zeros off by more than 3 points", [](Level one) { return one.shares_off; });
   row("of those beyond 3 standard errors, too", [](Level one) { return one.shares_beyond_chance; });
   row("pairs of metrics", [](Level one) { return one.pairs; });
   row("pairs with a rank correlation off by more than .1", [](Level one) { return one.pairs_off; });
   row("of those beyond 3 standard errors, too", [](Level one) { return one.pairs_beyond_chance; });
+  error_row("root mean square of what is off beyond chance", [](Level one) { return one.rank_correlation_own; });
 }
 
 void add_worst(const LevelAgreement& level, std::string& text) {

@@ -33,6 +33,8 @@ Json level_json(const LevelAgreement& level) {
           {"metrics", metrics},
           {"quantiles_off", one.quantiles_off},
           {"quantiles_beyond_chance", one.quantiles_beyond_chance},
+          {"quantile_own_sd", one.quantile_own_sd},
+          {"rank_correlation_own", one.rank_correlation_own},
           {"shares_off", one.shares_off},
           {"shares_beyond_chance", one.shares_beyond_chance},
           {"pairs", one.pairs},

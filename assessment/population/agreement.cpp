@@ -16,6 +16,16 @@ namespace {
 constexpr double kQuantileLimit = 0.1, kShareLimit = 3.0, kPairLimit = 0.1, kErrors = 3.0;
 constexpr std::size_t kFewestCompared = 30, kResamples = 200;
 
+// Of differences, each with its standard error: what is left when chance is taken away, root mean square.
+struct OwnError {
+  double squares = 0.0, count = 0.0;
+  void add(double difference, double error) {
+    squares += difference * difference - error * error;
+    count += 1.0;
+  }
+  double rms() const { return count > 0.0 ? std::sqrt(std::max(0.0, squares / count)) : 0.0; }
+};
+
 struct Column {
   std::vector<double> values;  // sorted
   double null_share = 0.0, zero_share = 0.0;
@@ -39,23 +49,18 @@ Column column_of(std::span<const Values> rows, std::size_t m) {
   return column;
 }
 
-// Where the mid-distribution passes a share: of each value all that lie below it and half of those that share it,
-// between two values in a line.
-double quantile_at(const std::vector<double>& sorted, double share) {
-  const auto n = static_cast<double>(sorted.size());
-  double before = sorted.front(), at_before = 0.0;
-  for (std::size_t first = 0; first < sorted.size();) {
-    std::size_t past = first + 1;
-    while (past < sorted.size() && sorted[past] == sorted[first]) ++past;
-    const double at = 0.5 * static_cast<double>(first + past) / n;
-    if (at >= share)
-      return at_before == 0.0 ? sorted[first]
-                              : before + (sorted[first] - before) * (share - at_before) / (at - at_before);
-    before = sorted[first];
-    at_before = at;
-    first = past;
+// Where the distribution passes a share: the i-th of n values at (i − ½)/n, between two in a line. A whole number
+// is spread over its unit, as grouped data are, so that nothing jumps where a share passes the mark.
+double quantile_at(const std::vector<double>& sorted, double share, bool whole) {
+  const double place = share * static_cast<double>(sorted.size()) - 0.5;
+  const auto low = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(sorted.size() - 1)));
+  if (whole) {
+    const auto [first, past] = std::equal_range(sorted.begin(), sorted.end(), sorted[low]);
+    const double within = share * static_cast<double>(sorted.size()) - static_cast<double>(first - sorted.begin());
+    return sorted[low] - 0.5 + within / static_cast<double>(past - first);
   }
-  return before;
+  const std::size_t high = std::min(low + 1, sorted.size() - 1);
+  return sorted[low] + (sorted[high] - sorted[low]) * std::clamp(place - static_cast<double>(low), 0.0, 1.0);
 }
 
 double mean_of(const std::vector<double>& x) {
@@ -73,14 +78,14 @@ double sd_of(const std::vector<double>& x) {
 constexpr std::array kShares = {0.1, 0.5, 0.9};
 using Quantiles = std::array<double, kShares.size()>;
 
-Quantiles quantiles_of(const std::vector<double>& sorted) {
+Quantiles quantiles_of(const std::vector<double>& sorted, bool whole) {
   Quantiles made{};
-  for (std::size_t i = 0; i < made.size(); ++i) made[i] = quantile_at(sorted, kShares[i]);
+  for (std::size_t i = 0; i < made.size(); ++i) made[i] = quantile_at(sorted, kShares[i], whole);
   return made;
 }
 
 // Standard errors by drawing as many again.
-Quantiles quantile_errors(const std::vector<double>& sorted, std::uint64_t seed) {
+Quantiles quantile_errors(const std::vector<double>& sorted, bool whole, std::uint64_t seed) {
   std::array<std::vector<double>, kShares.size()> found;
   std::vector<double> again(sorted.size());
   for (std::size_t r = 0; r < kResamples; ++r) {
@@ -88,7 +93,7 @@ Quantiles quantile_errors(const std::vector<double>& sorted, std::uint64_t seed)
       again[i] = sorted[static_cast<std::size_t>(base::uniform_at(base::hash_combine(seed, std::uint64_t{r}), i) *
                                                  static_cast<double>(sorted.size()))];
     std::sort(again.begin(), again.end());
-    const Quantiles one = quantiles_of(again);
+    const Quantiles one = quantiles_of(again, whole);
     for (std::size_t q = 0; q < one.size(); ++q) found[q].push_back(one[q]);
   }
   Quantiles errors{};
@@ -101,7 +106,7 @@ double share_error_points(double share, std::size_t n) {
 }
 
 MetricAgreement metric_agreement(std::span<const Values> full, std::span<const Values> drawn, std::size_t m,
-                                 std::uint64_t seed, Agreement& sum) {
+                                 bool whole, std::uint64_t seed, OwnError& own, Agreement& sum) {
   MetricAgreement made;
   const Column a = column_of(full, m), b = column_of(drawn, m);
   made.values = a.values.size();
@@ -117,12 +122,13 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   const double sd = sd_of(a.values);
   if (!(sd > 0.0) || b.values.empty()) return made;
   bool off = false, beyond = false;
-  const Quantiles here = quantiles_of(a.values), there = quantiles_of(b.values);
-  const Quantiles errors = quantile_errors(a.values, base::hash_combine(seed, std::uint64_t{m}));
+  const Quantiles here = quantiles_of(a.values, whole), there = quantiles_of(b.values, whole);
+  const Quantiles errors = quantile_errors(a.values, whole, base::hash_combine(seed, std::uint64_t{m}));
   for (std::size_t q = 0; q < kShares.size(); ++q) {
     const double difference = (there[q] - here[q]) / sd, error = errors[q] / sd;
     off = off || std::abs(difference) > kQuantileLimit;
     beyond = beyond || std::abs(difference) > kQuantileLimit + kErrors * error;
+    own.add(difference, error);
     if (std::abs(difference) > std::abs(made.quantile_sd)) {
       made.quantile_sd = difference;
       made.quantile_error_sd = error;
@@ -192,6 +198,7 @@ double difference_of(const std::vector<double>& less, const std::vector<double>&
 
 void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std::span<const Values> drawn,
                    std::span<const std::size_t> compared, Agreement& sum) {
+  OwnError own;
   for (std::size_t i = 0; i < compared.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const auto a = rank_correlation(full, compared[i], full, compared[j]);
@@ -201,6 +208,7 @@ void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std
       const double off = std::abs(*a - *b);
       sum.pairs_off += off > kPairLimit ? 1U : 0U;
       const double error = rank_correlation_error(*a, full.size());
+      own.add(off, error);
       sum.pairs_beyond_chance += off > kPairLimit + kErrors * error ? 1U : 0U;
       if (off > sum.worst_rank_correlation) {
         sum.worst_rank_correlation = off;
@@ -209,6 +217,7 @@ void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std
             surrogate.mark().metrics[compared[i]].id + " and " + surrogate.mark().metrics[compared[j]].id;
       }
     }
+  sum.rank_correlation_own = own.rms();
 }
 
 }  // namespace
@@ -220,14 +229,17 @@ Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoin
   sum.attempts = full.size();
   sum.draws = drawn.size();
   std::vector<std::size_t> compared;
+  OwnError of_quantiles;
   for (std::size_t m = 0; m < surrogate.mark().metrics.size(); ++m) {
     const auto values =
         std::count_if(full.begin(), full.end(), [&](const Values& row) { return row[m].has_value(); });
     if (static_cast<std::size_t>(values) < kFewestCompared) continue;
     compared.push_back(m);
-    sum.metrics.push_back(metric_agreement(full, drawn, m, seed, sum));
+    sum.metrics.push_back(
+        metric_agreement(full, drawn, m, is_whole(surrogate.mark().metrics[m].id), seed, of_quantiles, sum));
     sum.metrics.back().metric = surrogate.mark().metrics[m].id;
   }
+  sum.quantile_own_sd = of_quantiles.rms();
   compare_pairs(surrogate, full, drawn, compared, sum);
   return sum;
 }

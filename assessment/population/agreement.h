@@ -15,9 +15,8 @@ struct MetricAgreement {
   std::string metric;
   std::size_t values = 0;  // of the attempts, that are not null
   // The surrogate's minus the attempts': of the quantiles 10, 50 and 90 the largest, in standard deviations; of
-  // nulls and of zeros in points of 100. Quantiles are of the mid-distribution, which between two values that many
-  // have goes evenly: of a count a plain one jumps by a whole unit where a share passes its mark (Ma, Genton and
-  // Parzen, Ann. Inst. Stat. Math. 63, 2011).
+  // nulls and of zeros in points of 100. Of a count they are those of grouped data, each number spread over its
+  // unit: a plain quantile jumps by a whole unit where a share passes its mark.
   double quantile_sd = 0.0, quantile_error_sd = 0.0;  // and one standard error of that quantile, by the bootstrap
   double null_points = 0.0, null_error_points = 0.0;
   double zero_points = 0.0, zero_error_points = 0.0;
@@ -30,6 +29,8 @@ struct Agreement {
   std::string worst_pair;
   // How many are further apart than .1 SD, 3 points, .1; and how many of them by more than 3 standard errors
   // beyond.
+  // What is left of the differences when chance is taken away, root mean square: the surrogate's own error.
+  double quantile_own_sd = 0.0, rank_correlation_own = 0.0;
   std::size_t quantiles_off = 0, shares_off = 0, pairs_off = 0;
   std::size_t quantiles_beyond_chance = 0, shares_beyond_chance = 0, pairs_beyond_chance = 0;
 };

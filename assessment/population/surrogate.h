@@ -40,6 +40,9 @@ SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std
 // What differs, in words; empty: nothing.
 std::string difference(const SurrogateMark& one, const SurrogateMark& other);
 
+// A metric whose values are whole numbers: a count, or yes and no.
+bool is_whole(const std::string& metric);
+
 using Values = std::vector<std::optional<double>>;  // in the mark's order; nothing: the metric has none
 
 struct SimulatedPoint {
