@@ -16,14 +16,16 @@ namespace {
 constexpr double kQuantileLimit = 0.1, kShareLimit = 3.0, kPairLimit = 0.1, kErrors = 3.0;
 constexpr std::size_t kFewestCompared = 30, kResamples = 200;
 
-// Of differences, each with its standard error: what is left when chance is taken away, root mean square.
+// Of differences, each with its standard error: what is left when chance is taken away, root mean square. What
+// chance blurs beyond the limit counts the less for it: a square's own error goes with the variance.
 struct OwnError {
-  double squares = 0.0, count = 0.0;
+  double limit = 0.1, squares = 0.0, weights = 0.0;
   void add(double difference, double error) {
-    squares += difference * difference - error * error;
-    count += 1.0;
+    const double variance = error * error + limit * limit, weight = 1.0 / (variance * variance);
+    squares += weight * (difference * difference - error * error);
+    weights += weight;
   }
-  double rms() const { return count > 0.0 ? std::sqrt(std::max(0.0, squares / count)) : 0.0; }
+  double rms() const { return weights > 0.0 ? std::sqrt(std::max(0.0, squares / weights)) : 0.0; }
 };
 
 struct Column {
@@ -198,7 +200,7 @@ double difference_of(const std::vector<double>& less, const std::vector<double>&
 
 void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std::span<const Values> drawn,
                    std::span<const std::size_t> compared, Agreement& sum) {
-  OwnError own;
+  OwnError own{.limit = kPairLimit};
   for (std::size_t i = 0; i < compared.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const auto a = rank_correlation(full, compared[i], full, compared[j]);
@@ -229,7 +231,7 @@ Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoin
   sum.attempts = full.size();
   sum.draws = drawn.size();
   std::vector<std::size_t> compared;
-  OwnError of_quantiles;
+  OwnError of_quantiles{.limit = kQuantileLimit};
   for (std::size_t m = 0; m < surrogate.mark().metrics.size(); ++m) {
     const auto values =
         std::count_if(full.begin(), full.end(), [&](const Values& row) { return row[m].has_value(); });

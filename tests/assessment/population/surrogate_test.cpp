@@ -23,6 +23,8 @@ TEST(Surrogate, AgreesWithAttemptsThatItDoesNotKnow) {
     EXPECT_EQ(agreement.metrics.size(), 4U);
     EXPECT_EQ(agreement.pairs, 3U) << "one is the same in all";
     EXPECT_EQ(agreement.quantiles_beyond_chance, 0U);
+    EXPECT_LT(agreement.quantile_own_sd, 0.06);
+    EXPECT_LT(agreement.rank_correlation_own, 0.05);
     EXPECT_EQ(agreement.shares_beyond_chance, 0U);
     EXPECT_EQ(agreement.pairs_off, 0U) << agreement.worst_pair << agreement.worst_rank_correlation;
   }
@@ -33,7 +35,9 @@ TEST(Surrogate, AWrongOneIsFoundOut) {
   std::vector<SimulatedPoint> points = attempts_of({0.0, 1.2}, 1, 2000);
   for (SimulatedPoint& one : points) one.place[1] = 1.2 - one.place[1];
   const auto wrong = Surrogate::fit(known_mark(), points);
-  EXPECT_GT(agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3).quantiles_beyond_chance, 0U);
+  const auto agreement = agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3);
+  EXPECT_GT(agreement.quantiles_beyond_chance, 0U);
+  EXPECT_GT(agreement.quantile_own_sd, 0.1);
 }
 
 // What groups differ by, in 300 attempts of each that it does not know; and the same of the other way round is
