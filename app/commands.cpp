@@ -43,9 +43,11 @@ namespace seldinger::app {
   ROW(render)                   \
   ROW(sheet)                    \
   ROW(simulate)                 \
+  ROW(simulate_merge)           \
   ROW(surrogate_fit)            \
   ROW(surrogate_check)          \
   ROW(surrogate_effects)        \
+  ROW(surrogate_coverage)       \
   ROW(recovery)                 \
   ROW(score)                    \
   ROW(replay)                   \

@@ -147,6 +147,11 @@ std::string json_of_score(const assessment::Scored& scored, const casedb::Attemp
   return text(json);
 }
 
+std::string json_of_merged(const casedb::Merged& merged) {
+  return casedb::text(
+      Json{{"synthetic", true}, {"people", merged.people}, {"attempts", merged.attempts}, {"there", merged.there}});
+}
+
 std::string json_of_simulation(const std::vector<session::SimulatedAttempt>& attempts) {
   return text({{"attempts", attempts_json(attempts)}});
 }

@@ -7,6 +7,7 @@
 #include "assessment/metrics/metric.h"
 #include "assessment/score.h"
 #include "casedb/attempts/attempts.h"
+#include "casedb/attempts/merge_simulated.h"
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
 #include "casedb/json/case_json.h"
@@ -52,6 +53,7 @@ std::string json_of_samples(const std::vector<PointSample>& samples);
 std::string json_of_lesion(const std::string& lesion_id);
 // Metrics and steps; of a stored attempt its grade, else null.
 std::string json_of_score(const assessment::Scored& scored, const casedb::AttemptGrade* grade);
+std::string json_of_merged(const casedb::Merged& merged);
 std::string json_of_simulation(const std::vector<session::SimulatedAttempt>& attempts);
 // An attempt whose recording cannot be read has no course.
 struct Course {

@@ -139,7 +139,7 @@ int run_simulate(const Arguments& arguments) {
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   const auto count = arguments.whole("--count", 1, 1, 100'000);
   std::optional<std::size_t> people;
-  if (arguments.has("--people")) people = static_cast<std::size_t>(arguments.whole("--people", 1, 1, 1'000));
+  if (arguments.has("--people")) people = static_cast<std::size_t>(arguments.whole("--people", 1, 1, 1'000'000));
   const auto jobs = arguments.whole("--jobs", std::clamp(std::thread::hardware_concurrency(), 1U, 16U), 1, 256);
   std::optional<cases::InstrumentKind> kind;
   if (arguments.has("--instrument")) {

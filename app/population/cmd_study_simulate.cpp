@@ -26,16 +26,9 @@ population::Group group_of(const study::Plan& plan, const std::string& text, std
   if (equals == text.npos || found == plan.groups.end())
     throw UsageError("--shift is a group of the plan, = and a number or novice, intermediate, expert");
   which = static_cast<std::size_t>(found - plan.groups.begin());
-  const std::string value = text.substr(equals + 1);
-  population::Group group;
-  if (const auto named = population::named_group(value)) {
-    group = *named;
-  } else {
-    const double shift = parse_number(value).value_or(NAN);
-    if (!(std::abs(shift) <= 5.0))
-      throw UsageError("--shift ends in a number of -5 to 5, or novice, intermediate, expert");
-    group = population::shifted_group(shift);
-  }
+  const auto known = group_from(text.substr(equals + 1));
+  if (!known) throw UsageError("--shift ends in a number of -5 to 5, or novice, intermediate, expert");
+  population::Group group = *known;
   // Two groups of the same shift are different people.
   group.name = found->name;
   return group;

@@ -1,13 +1,15 @@
 // surrogate fit, check, effects.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "app/acting/acting.h"
 #include "app/attempts/this_program.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/population/agreement_text.h"
 #include "app/population/effects_text.h"
 #include "app/population/open_surrogate.h"
 #include "app/population/population_json.h"
@@ -19,10 +21,25 @@ namespace {
 
 namespace population = assessment::population;
 
+// Of each attempt that it is held against.
+constexpr std::size_t kDrawsEach = 20;
+constexpr std::uint64_t kDrawSeed = 1;
+
 // A surrogate is asked about groups between and a little beyond those that there are.
 std::vector<population::Group> fitted_groups() {
   std::vector<population::Group> groups;
   for (const double shift : {-0.6, 0.0, 0.4, 0.8, 1.2, 1.8}) groups.push_back(population::shifted_group(shift));
+  return groups;
+}
+
+std::vector<population::Group> groups_of(const Arguments& arguments, std::vector<population::Group> groups) {
+  if (!arguments.has("--group")) return groups;
+  groups.clear();
+  for (const std::string& text : arguments.all("--group")) {
+    const auto group = group_from(text);
+    if (!group) throw UsageError("--group is novice, intermediate, expert or a number of -5 to 5");
+    groups.push_back(*group);
+  }
   return groups;
 }
 
@@ -50,9 +67,10 @@ base::Result<Ready> ready(const Arguments& arguments, int attempts, int fewest, 
 
 int run_surrogate_fit(const Arguments& arguments) {
   const auto out = file_of("--out", arguments.required("--out"), {".json"});
+  const auto groups = groups_of(arguments, fitted_groups());
   auto made = ready(arguments, 600, static_cast<int>(population::Surrogate::kFewest), 1);
   if (!made) return refuse(made.error());
-  auto points = simulated_points(made->simulation, fitted_groups(), made->seed, made->attempts, made->jobs);
+  auto points = simulated_points(made->simulation, groups, made->seed, made->attempts, made->jobs);
   if (!points) return refuse(points.error());
   const auto surrogate =
       population::Surrogate::fit(mark_of_case(made->library, made->simulation), std::move(*points));
@@ -62,77 +80,115 @@ int run_surrogate_fit(const Arguments& arguments) {
     std::fputs(json_of_fit(*surrogate).c_str(), stdout);
   else
     std::printf("fitted to %zu simulated attempts; `seldinger surrogate check` tells how well\n",
-                surrogate->points());
+                surrogate->attempts().size());
   return kDone;
 }
 
-void print(const std::string& group, const population::Agreement& one) {
-  std::printf("%s: %zu attempts that the surrogate does not know\n", group.c_str(), one.attempts);
-  std::printf("  quantiles   %zu of %zu metrics off by more than .1 SD, %zu by more than chance\n",
-              one.quantiles_off, one.metrics.size(), one.quantiles_beyond_chance);
-  std::printf("  nulls, zeros  %zu shares off by more than 3 points, %zu by more than chance\n", one.shares_off,
-              one.shares_beyond_chance);
-  std::printf(
-      "  rank correlations  %zu of %zu pairs off by more than .1, %zu by more than chance; worst %.2f, %s\n",
-      one.pairs_off, one.pairs, one.pairs_beyond_chance, one.worst_rank_correlation, one.worst_pair.c_str());
-  std::vector<population::MetricAgreement> worst = one.metrics;
-  std::sort(worst.begin(), worst.end(),
-            [](const auto& a, const auto& b) { return std::abs(a.quantile_sd) > std::abs(b.quantile_sd); });
-  for (std::size_t i = 0; i < std::min<std::size_t>(worst.size(), 5); ++i)
-    std::printf("  %-28s %+.2f SD (one standard error of the attempts %.2f)\n", worst[i].metric.c_str(),
-                worst[i].quantile_sd, worst[i].quantile_error_sd);
+struct Level {
+  std::string name;
+  std::vector<population::SimulatedPoint> points;
+};
+
+// Of files that `surrogate fit` wrote: attempts that were simulated whole before.
+base::Result<std::vector<Level>> levels_of_files(const Arguments& arguments,
+                                                 const population::Surrogate& surrogate) {
+  std::vector<Level> levels;
+  for (const std::string& file : arguments.all("--against")) {
+    const auto other = surrogate_in("--against", file);
+    if (!other) return other.error();
+    if (const std::string differs = difference(surrogate.mark(), other->mark()); !differs.empty())
+      return base::Error{"other_surrogate", "the attempts of --against are of " + differs};
+    levels.push_back({std::filesystem::path(file).stem().string(), other->attempts()});
+  }
+  return levels;
+}
+
+base::Result<std::vector<Level>> levels_of_groups(Ready& made, const std::vector<population::Group>& groups,
+                                                  const population::Surrogate& surrogate) {
+  if (const std::string other = difference(surrogate.mark(), mark_of_case(made.library, made.simulation));
+      !other.empty())
+    return base::Error{"other_surrogate", "the surrogate is of " + other};
+  std::vector<Level> levels;
+  for (const population::Group& group : groups) {
+    auto points = simulated_points(made.simulation, {group}, made.seed, made.attempts, made.jobs);
+    if (!points) return points.error();
+    levels.push_back({group.name, std::move(*points)});
+  }
+  return levels;
 }
 
 int run_surrogate_check(const Arguments& arguments) {
-  auto made = ready(arguments, 500, 30, 1'000'001);
-  if (!made) return refuse(made.error());
+  const auto groups =
+      groups_of(arguments, {*population::named_group("novice"), *population::named_group("intermediate"),
+                            *population::named_group("expert")});
+  std::optional<Ready> simulated_by;
+  if (arguments.has("--against")) {
+    for (const char* option : {"--case", "--library", "--group", "--attempts", "--seed", "--jobs"})
+      if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with --against");
+  } else {
+    auto simulating = ready(arguments, 500, 30, 1'000'001);
+    if (!simulating) return refuse(simulating.error());
+    simulated_by = std::move(*simulating);
+  }
   const auto surrogate = surrogate_of(arguments);
   if (!surrogate) return refuse(surrogate.error());
-  if (const std::string other = difference(surrogate->mark(), mark_of_case(made->library, made->simulation));
-      !other.empty())
-    return refuse({"other_surrogate", "the surrogate is of " + other});
-  std::vector<LevelAgreement> levels;
-  std::size_t beyond = 0;
-  for (const char* name : {"novice", "intermediate", "expert"}) {
-    const auto points = simulated_points(made->simulation, {*population::named_group(name)}, made->seed,
-                                         made->attempts, made->jobs);
-    if (!points) return refuse(points.error());
-    const auto one = population::agreement_of(*surrogate, *points, 20, made->seed);
-    beyond += one.quantiles_beyond_chance + one.shares_beyond_chance + one.pairs_beyond_chance;
-    levels.push_back({name, one});
-    if (!arguments.has("--json")) print(name, one);
+  const auto levels =
+      simulated_by ? levels_of_groups(*simulated_by, groups, *surrogate) : levels_of_files(arguments, *surrogate);
+  if (!levels) return refuse(levels.error());
+  SurrogateAgreement made;
+  for (const Level& one : *levels) {
+    made.levels.push_back({one.name, population::agreement_of(*surrogate, one.points, kDrawsEach, kDrawSeed)});
+    if (&one != &levels->front())
+      made.effects.push_back(
+          {levels->front().name, one.name,
+           population::effects_of(*surrogate, levels->front().points, one.points, kDrawsEach, kDrawSeed)});
   }
-  if (arguments.has("--json")) std::fputs(json_of_agreement(levels).c_str(), stdout);
-  return beyond == 0 ? kDone : kCheckFailed;
+  std::fputs(arguments.has("--json") ? json_of_agreement(made).c_str() : text_of_agreement(made).c_str(), stdout);
+  return is_within_chance(made) ? kDone : kCheckFailed;
 }
 
 int run_surrogate_effects(const Arguments& arguments) {
+  std::optional<std::filesystem::path> chart;
+  if (arguments.has("--chart")) chart = file_of("--chart", arguments.text("--chart"), {".svg"});
   const auto surrogate = surrogate_of(arguments);
   if (!surrogate) return refuse(surrogate.error());
   const auto people = static_cast<std::size_t>(arguments.whole("--people", 2000, 100, 1'000'000));
   const auto effects = simulated_effects(*surrogate, people, 1);
+  if (chart) write_file(*chart, svg_of_effects(effects));
   std::fputs(arguments.has("--json") ? json_of_effects(effects).c_str() : text_of_effects(effects).c_str(), stdout);
   return kDone;
 }
 
 constexpr Option kCase{"--case", "CASE", "the case"};
+constexpr Option kAgainst{
+    "--against", "FILE.json",
+    "instead of simulating: what `seldinger surrogate fit --group` wrote of one group; may be "
+    "given many times",
+    true};
 constexpr Option kFile{"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote"};
 constexpr Option kJobs{"--jobs", "N", "threads; default one for each core. The results are the same"};
-constexpr Option kFitOptions[] = {kLibrary,
-                                  kCase,
-                                  {"--attempts", "N", "to fit it to; default 600"},
-                                  {"--seed", "N", "of the people; default 1"},
-                                  kJobs,
-                                  {"--out", "FILE.json", "the new file"},
-                                  kJson};
-constexpr Option kCheckOptions[] = {kLibrary,
-                                    kCase,
-                                    kFile,
-                                    {"--attempts", "N", "of each level, that it was not fitted to; default 500"},
-                                    {"--seed", "N", "of the people; default 1000001"},
-                                    kJobs,
-                                    kJson};
-constexpr Option kEffectsOptions[] = {kFile, {"--people", "N", "drawn for each group; default 2000"}, kJson};
+constexpr Option kGroup{
+    "--group", "GROUP",
+    "who: novice, intermediate, expert or by how many standard deviations abilities are shifted; "
+    "may be given many times. Default: groups from -0.6 to 1.8",
+    true};
+constexpr Option kFitOptions[] = {
+    kLibrary, kCase, {"--attempts", "N", "to fit it to; default 600"}, {"--seed", "N", "of the people; default 1"},
+    kGroup,   kJobs, {"--out", "FILE.json", "the new file"},           kJson};
+constexpr Option kCheckOptions[] = {
+    kLibrary,
+    kCase,
+    kFile,
+    {"--attempts", "N", "of each level, that it was not fitted to; default 500"},
+    {"--seed", "N", "of the people; default 1000001"},
+    {"--group", "GROUP", "who, as of `seldinger surrogate fit`; default novice, intermediate, expert", true},
+    kAgainst,
+    kJobs,
+    kJson};
+constexpr Option kEffectsOptions[] = {kFile,
+                                      {"--people", "N", "drawn for each group; default 2000"},
+                                      {"--chart", "FILE.svg", "draw them, beside published ones, into a new file"},
+                                      kJson};
 
 }  // namespace
 

@@ -27,6 +27,9 @@ struct SimulatedEffects {
 SimulatedEffects simulated_effects(const assessment::population::Surrogate& surrogate, std::size_t people,
                                    std::uint64_t seed);
 std::string text_of_effects(const SimulatedEffects& effects);  // Markdown
+// Published differences with their intervals, what such people would have shown, and every metric's, as an SVG
+// file.
+std::string svg_of_effects(const SimulatedEffects& effects);
 
 // What such people would have shown in the published study, where that is simulated.
 std::optional<double> predicted(const SimulatedEffects& effects,

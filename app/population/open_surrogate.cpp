@@ -1,5 +1,7 @@
 #include "app/population/open_surrogate.h"
 
+#include <cmath>
+
 #include "app/cli/command.h"
 #include "app/cli/file.h"
 #include "app/cli/progress.h"
@@ -20,16 +22,26 @@ population::SurrogateMark mark_of_case(casedb::Library& library, const session::
 }
 
 base::Result<population::Surrogate> surrogate_of(const Arguments& arguments) {
-  const std::string file = arguments.required("--surrogate");
+  return surrogate_in("--surrogate", arguments.required("--surrogate"));
+}
+
+base::Result<population::Surrogate> surrogate_in(const char* option, const std::string& file) {
   const auto text = read_text(file);
-  if (!text) return error_of("--surrogate", file, text.error());
+  if (!text) return error_of(option, file, text.error());
   auto surrogate = population::Surrogate::from_json(*text);
-  if (!surrogate) return error_of("--surrogate", file, surrogate.error());
+  if (!surrogate) return error_of(option, file, surrogate.error());
   const auto today = population::mark_of_today(engine::kStepVersion, surrogate->mark().case_id,
                                                surrogate->mark().case_title, surrogate->mark().case_mark);
   if (const std::string other = difference(surrogate->mark(), today); !other.empty())
     return base::Error{"other_surrogate", "the surrogate is of " + other, {}};
   return surrogate;
+}
+
+std::optional<population::Group> group_from(const std::string& text) {
+  if (const auto named = population::named_group(text)) return named;
+  const double shift = parse_number(text).value_or(NAN);
+  if (!(std::abs(shift) <= kMostShift)) return std::nullopt;
+  return population::shifted_group(shift);
 }
 
 base::Result<std::vector<population::SimulatedPoint>> simulated_points(const session::Simulation& simulation,

@@ -1,7 +1,9 @@
 // A surrogate from a file, and what it must be of to be used today.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/cli/arguments.h"
 #include "assessment/population/surrogate.h"
@@ -16,6 +18,12 @@ assessment::population::SurrogateMark mark_of_case(casedb::Library& library, con
 // The file of --surrogate: `bad_surrogate`, and `other_surrogate` where it is of other metrics, people or
 // simulation than this program's.
 base::Result<assessment::population::Surrogate> surrogate_of(const Arguments& arguments);
+// The same of a file that another option names.
+base::Result<assessment::population::Surrogate> surrogate_in(const char* option, const std::string& file);
+
+constexpr double kMostShift = 5.0;  // standard deviations
+// "novice", "intermediate", "expert" or by how many standard deviations every ability is shifted.
+std::optional<assessment::population::Group> group_from(const std::string& text);
 
 // Everybody's place among abilities, and what the attempt measured: attempts that are simulated whole and not
 // stored.

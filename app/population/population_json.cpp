@@ -33,6 +33,8 @@ Json level_json(const LevelAgreement& level) {
           {"metrics", metrics},
           {"quantiles_off", one.quantiles_off},
           {"quantiles_beyond_chance", one.quantiles_beyond_chance},
+          {"quantile_own_sd", one.quantile_own_sd},
+          {"rank_correlation_own", one.rank_correlation_own},
           {"shares_off", one.shares_off},
           {"shares_beyond_chance", one.shares_beyond_chance},
           {"pairs", one.pairs},
@@ -42,19 +44,34 @@ Json level_json(const LevelAgreement& level) {
           {"worst_pair", one.worst_pair}};
 }
 
+Json groups_json(const GroupsAgreement& groups) {
+  Json metrics = Json::array();
+  for (const population::EffectAgreement& one : groups.effects)
+    metrics.push_back({{"metric", one.metric},
+                       {"auc", one.area},
+                       {"auc_error", one.area_error},
+                       {"auc_drawn", one.area_drawn},
+                       {"d", one.d},
+                       {"d_error", one.d_error},
+                       {"d_drawn", one.d_drawn},
+                       {"paired_rank_correlation", one.pairs}});
+  return {{"more", groups.more}, {"less", groups.less}, {"off", effects_off(groups)}, {"metrics", metrics}};
+}
+
 }  // namespace
 
 std::string json_of_fit(const population::Surrogate& surrogate) {
   return casedb::text(Json{{"synthetic", true},
                            {"case_id", surrogate.mark().case_id},
-                           {"attempts", surrogate.points()},
+                           {"attempts", surrogate.attempts().size()},
                            {"metrics", surrogate.mark().metrics.size()}});
 }
 
-std::string json_of_agreement(const std::vector<LevelAgreement>& levels) {
-  Json list = Json::array();
-  for (const LevelAgreement& one : levels) list.push_back(level_json(one));
-  return casedb::text(Json{{"synthetic", true}, {"levels", list}});
+std::string json_of_agreement(const SurrogateAgreement& agreement) {
+  Json levels = Json::array(), groups = Json::array();
+  for (const LevelAgreement& one : agreement.levels) levels.push_back(level_json(one));
+  for (const GroupsAgreement& one : agreement.effects) groups.push_back(groups_json(one));
+  return casedb::text(Json{{"synthetic", true}, {"levels", levels}, {"effects", groups}});
 }
 
 std::string json_of_effects(const SimulatedEffects& effects) {
@@ -84,6 +101,29 @@ std::string json_of_effects(const SimulatedEffects& effects) {
                            {"people", effects.people},
                            {"metrics", metrics},
                            {"published", published}});
+}
+
+std::string json_of_doses(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts,
+                          const population::DoseOptions& options) {
+  Json metrics = Json::array();
+  for (const population::MetricDose& dose : doses) {
+    Json responses = Json::array();
+    for (std::size_t s = 0; s < shifts.size(); ++s) {
+      const population::MetricResponse& one = dose.responses[s];
+      responses.push_back({{"shift", shifts[s]},
+                           {"auc", one.area},
+                           {"intervals", one.intervals},
+                           {"coverage", ratio(static_cast<double>(one.covered), one.intervals)},
+                           {"mean_width", one.mean_width},
+                           {"paired_rank_correlation", one.paired}});
+    }
+    metrics.push_back({{"metric", dose.metric}, {"responses", responses}});
+  }
+  return casedb::text(Json{{"synthetic", true},
+                           {"studies", options.studies},
+                           {"per_group", options.per_group},
+                           {"truth_people", options.truth_people},
+                           {"metrics", metrics}});
 }
 
 std::string json_of_studies(const population::StudiesSum& sum, const population::World& world) {

@@ -23,6 +23,12 @@ An operator is one clone, however many seeds it has. `--people` of novice, inter
 [simulated people](simulated-people.md) instead, who overlap as people do; of learner and a file of skills it makes people
 about that operator, each with streams of their own.
 
+Filled: how people of different experience differed in published studies, with 95 % intervals; crosses: what simulated people
+would have shown there; hollow: each metric of theirs at Drill 2, experts and novices
+([by `seldinger surrogate effects --chart`](benchmarks/simulated-people.md)).
+
+![Published differences between groups, and those of every metric of simulated people](benchmarks/simulated-people.svg)
+
 What they see is what a person would: what each picture shows, after their reaction time; the needle outside the skin and
 the marks on its shaft; of the tip no more than whether the picture shows it, and where while it does. They sign in, and
 defer where INR is over 1.8 or platelets are below 50 · 10⁹/l (SIR 2019, high risk); find the plane, check the probe, note

@@ -1,18 +1,32 @@
 #include "assessment/population/agreement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "assessment/population/streams.h"
-#include "assessment/statistics/distributions.h"
 #include "assessment/statistics/ranks.h"
+#include "assessment/statistics/relations/discrimination.h"
+#include "sim/base/rng.h"
 
 namespace seldinger::assessment::population {
 namespace {
 
 constexpr double kQuantileLimit = 0.1, kShareLimit = 3.0, kPairLimit = 0.1, kErrors = 3.0;
-constexpr std::size_t kFewestCompared = 30;
+constexpr std::size_t kFewestCompared = 30, kResamples = 200;
+
+// Of differences, each with its standard error: what is left when chance is taken away, root mean square. What
+// chance blurs beyond the limit counts the less for it: a square's own error goes with the variance.
+struct OwnError {
+  double limit = 0.1, squares = 0.0, weights = 0.0;
+  void add(double difference, double error) {
+    const double variance = error * error + limit * limit, weight = 1.0 / (variance * variance);
+    squares += weight * (difference * difference - error * error);
+    weights += weight;
+  }
+  double rms() const { return weights > 0.0 ? std::sqrt(std::max(0.0, squares / weights)) : 0.0; }
+};
 
 struct Column {
   std::vector<double> values;  // sorted
@@ -37,25 +51,56 @@ Column column_of(std::span<const Values> rows, std::size_t m) {
   return column;
 }
 
-double quantile_at(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
+// Where the distribution passes a share: the i-th of n values at (i − ½)/n, between two in a line. A whole number
+// is spread over its unit, as grouped data are, so that nothing jumps where a share passes the mark.
+double quantile_at(const std::vector<double>& sorted, double share, bool whole) {
+  const double place = share * static_cast<double>(sorted.size()) - 0.5;
+  const auto low = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(sorted.size() - 1)));
+  if (whole) {
+    const auto [first, past] = std::equal_range(sorted.begin(), sorted.end(), sorted[low]);
+    const double within = share * static_cast<double>(sorted.size()) - static_cast<double>(first - sorted.begin());
+    return sorted[low] - 0.5 + within / static_cast<double>(past - first);
+  }
   const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (sorted[high] - sorted[low]) * (place - static_cast<double>(low));
+  return sorted[low] + (sorted[high] - sorted[low]) * std::clamp(place - static_cast<double>(low), 0.0, 1.0);
+}
+
+double mean_of(const std::vector<double>& x) {
+  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
 
 double sd_of(const std::vector<double>& x) {
   const auto n = static_cast<double>(x.size());
-  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  const double mean = mean_of(x);
   double square = 0.0;
   for (const double one : x) square += (one - mean) * (one - mean);
   return std::sqrt(square / (n - 1.0));
 }
 
-// √(p (1 − p)/n) over the density, of a normal distribution, in its standard deviations.
-double quantile_error(double share, std::size_t n) {
-  const double density = statistics::normal_pdf(statistics::normal_quantile_of(share));
-  return std::sqrt(share * (1.0 - share) / static_cast<double>(n)) / density;
+constexpr std::array kShares = {0.1, 0.5, 0.9};
+using Quantiles = std::array<double, kShares.size()>;
+
+Quantiles quantiles_of(const std::vector<double>& sorted, bool whole) {
+  Quantiles made{};
+  for (std::size_t i = 0; i < made.size(); ++i) made[i] = quantile_at(sorted, kShares[i], whole);
+  return made;
+}
+
+// Standard errors by drawing as many again.
+Quantiles quantile_errors(const std::vector<double>& sorted, bool whole, std::uint64_t seed) {
+  std::array<std::vector<double>, kShares.size()> found;
+  std::vector<double> again(sorted.size());
+  for (std::size_t r = 0; r < kResamples; ++r) {
+    for (std::size_t i = 0; i < again.size(); ++i)
+      again[i] = sorted[static_cast<std::size_t>(base::uniform_at(base::hash_combine(seed, std::uint64_t{r}), i) *
+                                                 static_cast<double>(sorted.size()))];
+    std::sort(again.begin(), again.end());
+    const Quantiles one = quantiles_of(again, whole);
+    for (std::size_t q = 0; q < one.size(); ++q) found[q].push_back(one[q]);
+  }
+  Quantiles errors{};
+  for (std::size_t q = 0; q < errors.size(); ++q) errors[q] = sd_of(found[q]);
+  return errors;
 }
 
 double share_error_points(double share, std::size_t n) {
@@ -63,7 +108,7 @@ double share_error_points(double share, std::size_t n) {
 }
 
 MetricAgreement metric_agreement(std::span<const Values> full, std::span<const Values> drawn, std::size_t m,
-                                 Agreement& sum) {
+                                 bool whole, std::uint64_t seed, OwnError& own, Agreement& sum) {
   MetricAgreement made;
   const Column a = column_of(full, m), b = column_of(drawn, m);
   made.values = a.values.size();
@@ -79,11 +124,13 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   const double sd = sd_of(a.values);
   if (!(sd > 0.0) || b.values.empty()) return made;
   bool off = false, beyond = false;
-  for (const double share : {0.1, 0.5, 0.9}) {
-    const double difference = (quantile_at(b.values, share) - quantile_at(a.values, share)) / sd;
-    const double error = quantile_error(share, a.values.size());
+  const Quantiles here = quantiles_of(a.values, whole), there = quantiles_of(b.values, whole);
+  const Quantiles errors = quantile_errors(a.values, whole, base::hash_combine(seed, std::uint64_t{m}));
+  for (std::size_t q = 0; q < kShares.size(); ++q) {
+    const double difference = (there[q] - here[q]) / sd, error = errors[q] / sd;
     off = off || std::abs(difference) > kQuantileLimit;
     beyond = beyond || std::abs(difference) > kQuantileLimit + kErrors * error;
+    own.add(difference, error);
     if (std::abs(difference) > std::abs(made.quantile_sd)) {
       made.quantile_sd = difference;
       made.quantile_error_sd = error;
@@ -94,13 +141,14 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   return made;
 }
 
-// Spearman's, of the rows in which both have a value.
-std::optional<double> rank_correlation(std::span<const Values> rows, std::size_t m, std::size_t k) {
+// Spearman's of one metric in rows and another in others, of those in which both have a value.
+std::optional<double> rank_correlation(std::span<const Values> rows, std::size_t m, std::span<const Values> others,
+                                       std::size_t k) {
   std::vector<double> x, y;
-  for (const Values& row : rows)
-    if (row[m] && row[k]) {
-      x.push_back(*row[m]);
-      y.push_back(*row[k]);
+  for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i)
+    if (rows[i][m] && others[i][k]) {
+      x.push_back(*rows[i][m]);
+      y.push_back(*others[i][k]);
     }
   if (x.size() < kFewestCompared) return std::nullopt;
   const auto a = statistics::midranks(x), b = statistics::midranks(y);
@@ -115,24 +163,63 @@ std::optional<double> rank_correlation(std::span<const Values> rows, std::size_t
   return xy / std::sqrt(xx * yy);
 }
 
+// Bonett and Wright's (Psychometrika 65, 2000) of Fisher's z, back on the correlation.
+double rank_correlation_error(double correlation, std::size_t n) {
+  return (1.0 - correlation * correlation) *
+         std::sqrt((1.0 + 0.5 * correlation * correlation) / (static_cast<double>(n) - 3.0));
+}
+
+std::vector<double> values_of(std::span<const Values> rows, std::size_t m) {
+  std::vector<double> values;
+  for (const Values& row : rows)
+    if (row[m]) values.push_back(*row[m]);
+  return values;
+}
+
+std::vector<Values> whole(std::span<const SimulatedPoint> points) {
+  std::vector<Values> rows;
+  for (const SimulatedPoint& one : points) rows.push_back(one.values);
+  return rows;
+}
+
+std::vector<Values> drawn_for(const Surrogate& surrogate, std::span<const SimulatedPoint> points, std::size_t each,
+                              std::uint64_t seed) {
+  std::vector<Values> rows;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    for (std::size_t i = 0; i < each; ++i)
+      rows.push_back(surrogate.draw(points[p].place, stream_of(seed, Drawn::surrogate, p, i)));
+  return rows;
+}
+
+double difference_of(const std::vector<double>& less, const std::vector<double>& more) {
+  const auto n1 = static_cast<double>(less.size()), n2 = static_cast<double>(more.size());
+  const double sd1 = sd_of(less), sd2 = sd_of(more);
+  const double pooled = std::sqrt(((n1 - 1.0) * sd1 * sd1 + (n2 - 1.0) * sd2 * sd2) / (n1 + n2 - 2.0));
+  return pooled > 0.0 ? (mean_of(more) - mean_of(less)) / pooled : 0.0;
+}
+
 void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std::span<const Values> drawn,
                    std::span<const std::size_t> compared, Agreement& sum) {
-  sum.rank_correlation_error = 1.0 / std::sqrt(static_cast<double>(full.size()) - 1.0);
+  OwnError own{.limit = kPairLimit};
   for (std::size_t i = 0; i < compared.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const auto a = rank_correlation(full, compared[i], compared[j]);
-      const auto b = rank_correlation(drawn, compared[i], compared[j]);
+      const auto a = rank_correlation(full, compared[i], full, compared[j]);
+      const auto b = rank_correlation(drawn, compared[i], drawn, compared[j]);
       if (!a || !b) continue;
       ++sum.pairs;
       const double off = std::abs(*a - *b);
       sum.pairs_off += off > kPairLimit ? 1U : 0U;
-      sum.pairs_beyond_chance += off > kPairLimit + kErrors * sum.rank_correlation_error ? 1U : 0U;
+      const double error = rank_correlation_error(*a, full.size());
+      own.add(off, error);
+      sum.pairs_beyond_chance += off > kPairLimit + kErrors * error ? 1U : 0U;
       if (off > sum.worst_rank_correlation) {
         sum.worst_rank_correlation = off;
+        sum.rank_correlation_error = error;
         sum.worst_pair =
             surrogate.mark().metrics[compared[i]].id + " and " + surrogate.mark().metrics[compared[j]].id;
       }
     }
+  sum.rank_correlation_own = own.rms();
 }
 
 }  // namespace
@@ -140,25 +227,50 @@ void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std
 Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoint> held_out, std::size_t draws_each,
                        std::uint64_t seed) {
   Agreement sum;
-  std::vector<Values> full, drawn;
-  for (std::size_t p = 0; p < held_out.size(); ++p) {
-    full.push_back(held_out[p].values);
-    for (std::size_t i = 0; i < draws_each; ++i)
-      drawn.push_back(surrogate.draw(held_out[p].place, stream_of(seed, Drawn::surrogate, p, i)));
-  }
+  const std::vector<Values> full = whole(held_out), drawn = drawn_for(surrogate, held_out, draws_each, seed);
   sum.attempts = full.size();
   sum.draws = drawn.size();
   std::vector<std::size_t> compared;
+  OwnError of_quantiles{.limit = kQuantileLimit};
   for (std::size_t m = 0; m < surrogate.mark().metrics.size(); ++m) {
     const auto values =
         std::count_if(full.begin(), full.end(), [&](const Values& row) { return row[m].has_value(); });
     if (static_cast<std::size_t>(values) < kFewestCompared) continue;
     compared.push_back(m);
-    sum.metrics.push_back(metric_agreement(full, drawn, m, sum));
+    sum.metrics.push_back(
+        metric_agreement(full, drawn, m, is_whole(surrogate.mark().metrics[m].id), seed, of_quantiles, sum));
     sum.metrics.back().metric = surrogate.mark().metrics[m].id;
   }
+  sum.quantile_own_sd = of_quantiles.rms();
   compare_pairs(surrogate, full, drawn, compared, sum);
   return sum;
+}
+
+std::vector<EffectAgreement> effects_of(const Surrogate& surrogate, std::span<const SimulatedPoint> less,
+                                        std::span<const SimulatedPoint> more, std::size_t draws_each,
+                                        std::uint64_t seed) {
+  std::vector<EffectAgreement> effects;
+  const std::vector<Values> full[] = {whole(less), whole(more)};
+  const std::vector<Values> drawn[] = {drawn_for(surrogate, less, draws_each, seed),
+                                       drawn_for(surrogate, more, draws_each, base::mix64(seed))};
+  for (std::size_t m = 0; m < surrogate.mark().metrics.size(); ++m) {
+    const auto a = values_of(full[0], m), b = values_of(full[1], m);
+    const auto x = values_of(drawn[0], m), y = values_of(drawn[1], m);
+    if (std::min({a.size(), b.size(), x.size(), y.size()}) < kFewestCompared) continue;
+    const auto roc = statistics::roc_area(b, a);
+    if (!(roc.variance() > 0.0)) continue;  // the same in all
+    EffectAgreement& made = effects.emplace_back();
+    made.metric = surrogate.mark().metrics[m].id;
+    made.area = roc.area;
+    made.area_error = std::sqrt(roc.variance());
+    made.area_drawn = statistics::roc_area(y, x).area;
+    made.d = difference_of(a, b);
+    made.d_drawn = difference_of(x, y);
+    const auto n1 = static_cast<double>(a.size()), n2 = static_cast<double>(b.size());
+    made.d_error = std::sqrt((n1 + n2) / (n1 * n2) + made.d * made.d / (2.0 * (n1 + n2)));
+    made.pairs = rank_correlation(full[0], m, full[1], m).value_or(0.0);
+  }
+  return effects;
 }
 
 }  // namespace seldinger::assessment::population

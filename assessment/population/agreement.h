@@ -15,8 +15,9 @@ struct MetricAgreement {
   std::string metric;
   std::size_t values = 0;  // of the attempts, that are not null
   // The surrogate's minus the attempts': of the quantiles 10, 50 and 90 the largest, in standard deviations; of
-  // nulls and of zeros in points of 100.
-  double quantile_sd = 0.0, quantile_error_sd = 0.0;  // and one standard error of such a quantile
+  // nulls and of zeros in points of 100. Of a count they are those of grouped data, each number spread over its
+  // unit: a plain quantile jumps by a whole unit where a share passes its mark.
+  double quantile_sd = 0.0, quantile_error_sd = 0.0;  // and one standard error of that quantile, by the bootstrap
   double null_points = 0.0, null_error_points = 0.0;
   double zero_points = 0.0, zero_error_points = 0.0;
 };
@@ -28,10 +29,25 @@ struct Agreement {
   std::string worst_pair;
   // How many are further apart than .1 SD, 3 points, .1; and how many of them by more than 3 standard errors
   // beyond.
+  // What is left of the differences when chance is taken away, root mean square: the surrogate's own error.
+  double quantile_own_sd = 0.0, rank_correlation_own = 0.0;
   std::size_t quantiles_off = 0, shares_off = 0, pairs_off = 0;
   std::size_t quantiles_beyond_chance = 0, shares_beyond_chance = 0, pairs_beyond_chance = 0;
 };
+// Both are drawn for the same places.
 Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoint> held_out, std::size_t draws_each,
                        std::uint64_t seed);
+
+// How two groups of attempts that were simulated whole differ, and how what the surrogate draws for the same people
+// does: more minus less.
+struct EffectAgreement {
+  std::string metric;
+  double area = 0.5, area_error = 0.0, area_drawn = 0.5;  // under the ROC curve, with DeLong's standard error
+  double d = 0.0, d_error = 0.0, d_drawn = 0.0;           // in pooled standard deviations
+  double pairs = 0.0;  // Spearman's correlation of those of the same number in the two groups; 0: of too few
+};
+std::vector<EffectAgreement> effects_of(const Surrogate& surrogate, std::span<const SimulatedPoint> less,
+                                        std::span<const SimulatedPoint> more, std::size_t draws_each,
+                                        std::uint64_t seed);
 
 }  // namespace seldinger::assessment::population

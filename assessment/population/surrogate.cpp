@@ -14,8 +14,8 @@
 namespace seldinger::assessment::population {
 namespace {
 
-constexpr double kNearSd = 0.8;  // how far an attempt's leftover is used, in standard deviations of ability
-constexpr std::uint64_t kMostTries = 64;
+constexpr double kNearSd = 0.5;  // how far an attempt's leftover is used, in standard deviations of ability
+constexpr std::uint64_t kMostTries = 512;
 constexpr std::size_t kFewestValues =
     4 * (1 + 2 * kAxes);  // for a surface; of fewer the level is the same everywhere
 constexpr std::uint64_t kTies = 0x74696573ULL;
@@ -103,6 +103,11 @@ std::string difference(const SurrogateMark& one, const SurrogateMark& other) {
   return one.metrics == other.metrics ? "" : "other metrics";
 }
 
+bool is_whole(const std::string& metric) {
+  const MetricInfo* info = find_metric(metric);
+  return info == nullptr || info->estimand.scale == Scale::count || info->estimand.scale == Scale::yes_no;
+}
+
 base::Result<Surrogate> Surrogate::fit(SurrogateMark mark, std::vector<SimulatedPoint> points) {
   if (points.size() < kFewest || points.size() > kMost)
     return base::Error{"bad_surrogate", "a surrogate is fitted to " + std::to_string(kFewest) + " to " +
@@ -120,9 +125,7 @@ void Surrogate::fit_surfaces() {
     Surface& surface = surfaces_.emplace_back();
     surface.scores.resize(points_.size());
     surface.coefficients.resize(kTerms);
-    const MetricInfo* info = find_metric(mark_.metrics[m].id);
-    surface.between =
-        info != nullptr && info->estimand.scale != Scale::count && info->estimand.scale != Scale::yes_no;
+    surface.between = !is_whole(mark_.metrics[m].id);
     std::vector<std::size_t> order;
     for (std::size_t p = 0; p < points_.size(); ++p)
       if (points_[p].values[m]) order.push_back(p);

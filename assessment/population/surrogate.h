@@ -40,6 +40,9 @@ SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std
 // What differs, in words; empty: nothing.
 std::string difference(const SurrogateMark& one, const SurrogateMark& other);
 
+// A metric whose values are whole numbers: a count, or yes and no.
+bool is_whole(const std::string& metric);
+
 using Values = std::vector<std::optional<double>>;  // in the mark's order; nothing: the metric has none
 
 struct SimulatedPoint {
@@ -54,7 +57,7 @@ class Surrogate {
   static base::Result<Surrogate> fit(SurrogateMark mark, std::vector<SimulatedPoint> points);
 
   const SurrogateMark& mark() const noexcept { return mark_; }
-  std::size_t points() const noexcept { return points_.size(); }
+  const std::vector<SimulatedPoint>& attempts() const noexcept { return points_; }
   std::size_t index_of(const std::string& metric) const;  // npos: there is no such one
   // Of an attempt at that place. The same stream, the same draw.
   Values draw(const Place& place, std::uint64_t stream) const;

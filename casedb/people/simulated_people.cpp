@@ -16,9 +16,20 @@ namespace {
 
 namespace population = assessment::population;
 
+std::string pseudonym_of(const population::Person& person) {
+  char text[16];
+  std::snprintf(
+      text, sizeof text, "S-%010llx",
+      static_cast<unsigned long long>(
+          population::stream_of(person.key, population::Drawn::identity, population::kPeopleVersion, 2) >> 24U));
+  return text;
+}
+
+}  // namespace
+
 // UUID version 8 (RFC 9562): its bits are the person's stream, so that two libraries give the same person the same
 // id.
-std::string id_of(const population::Person& person) {
+std::string simulated_person_id(const population::Person& person) {
   const auto word = [&](std::uint64_t which) {
     return population::stream_of(person.key, population::Drawn::identity, population::kPeopleVersion, which);
   };
@@ -32,19 +43,8 @@ std::string id_of(const population::Person& person) {
   return text;
 }
 
-std::string pseudonym_of(const population::Person& person) {
-  char text[16];
-  std::snprintf(
-      text, sizeof text, "S-%010llx",
-      static_cast<unsigned long long>(
-          population::stream_of(person.key, population::Drawn::identity, population::kPeopleVersion, 2) >> 24U));
-  return text;
-}
-
-}  // namespace
-
 std::string simulated_person(Library& library, const population::Person& person, std::uint64_t seed) {
-  const std::string person_id = id_of(person);
+  const std::string person_id = simulated_person_id(person);
   Sqlite& database = library.database();
   {
     Transaction transaction(database);

@@ -20,6 +20,8 @@ struct SimulatedTruth {
   double strategy = 0.0;
 };
 
+// The same in every library.
+std::string simulated_person_id(const assessment::population::Person& person);
 // Whoever that seed, group and number make; the same in every library, and added where there is none yet, with the
 // facts that such a person tells (casedb/people/facts.h). Answers the person's id.
 std::string simulated_person(Library& library, const assessment::population::Person& person, std::uint64_t seed);

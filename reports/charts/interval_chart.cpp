@@ -51,9 +51,16 @@ Html interval_chart(const IntervalChart& chart) {
                        (ticks.back() - ticks.front());
   };
   const double bottom = kTop + kPitch * static_cast<double>(rows.size());
-  html.raw("<svg class=\"intervals\" role=\"img\" viewBox=\"0 0 ")
-      .text(svg_px(kWidth) + " " + svg_px(bottom + kBottom));
+  html.raw("<svg class=\"intervals\" role=\"img\"");
+  if (chart.alone)
+    html.raw(" xmlns=\"http://www.w3.org/2000/svg\" font-family=\"'DejaVu Sans', Verdana, sans-serif\"");
+  html.raw(" viewBox=\"0 0 ").text(svg_px(kWidth) + " " + svg_px(bottom + kBottom));
   html.raw("\"><title>").text(chart.said).raw("</title>\n");
+  if (chart.alone)
+    html.raw(
+        "<style>text{fill:#333;font-size:11px}line{stroke:#333;stroke-width:1.6}.grid{stroke:#ccc;stroke-width:0.8}"
+        ".estimate{fill:#fff;stroke:#1a5fa8;stroke-width:1.8}.marked{fill:#1a5fa8}.truth{stroke:#b3261e}</style>\n"
+        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
   for (const double tick : ticks) {
     add_svg_line(html, "grid", at(tick), kTop, at(tick), bottom);
     add_svg_text(html, "middle", at(tick), bottom + 15.0, tick_text(tick));

@@ -24,6 +24,7 @@ struct IntervalChart {
   std::string x_label;
   std::vector<IntervalRow> rows;
   std::optional<double> low, high;  // the ends of a scale that has them
+  bool alone = false;               // a file by itself, not of a page: with its style
 };
 // What is not finite is left out. Nothing is drawn of no row.
 Html interval_chart(const IntervalChart& chart);

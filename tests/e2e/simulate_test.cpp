@@ -10,6 +10,7 @@
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/demo_library.h"
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
@@ -116,6 +117,36 @@ TEST_F(SimulateTest, PeopleAreDifferentAndOnceThere) {
   // Another group's people of the same seed and number are others.
   const Json novices = ask("simulate --people 1 --seed 5 --no-pictures --operator novice --case " + first_case());
   EXPECT_FALSE(seeds.contains(novices.at("attempts")[0].at("seed")));
+}
+
+// docs/simulated-people.sh as Slurm would start it: a library for each task, merged into one, where nothing is left
+// to be made and nothing is there twice.
+TEST_F(SimulateTest, ShardsOfAClusterMergeIntoOneLibraryWithoutADouble) {
+  const std::string bundle = (scratch_ / "cases.sdbundle").string();
+  ask("case bundle " + first_case() + " --out " + bundle);
+  const std::string words = " --people 3 --seed 9 --operator novice --case " + first_case();
+  const auto task = [&](const std::string& number) {
+    const auto ran = run("SLURM_ARRAY_TASK_ID=" + number + " SLURM_ARRAY_TASK_COUNT=2 SELDINGER='" + kProgram +
+                             "' '" + (fixtures::source_dir() / "docs/simulated-people.sh").string() + "' '" +
+                             bundle + "' '" + scratch_.string() + "'" + words,
+                         scratch_);
+    EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+    return ran.out;
+  };
+  task("1");
+  task("2");
+  EXPECT_NE(task("1").find("2 attempts of these people were there already"), std::string::npos);
+  const auto merge = [&](const std::string& number) {
+    return ask("simulate merge " + (scratch_ / ("shard-" + number)).string());
+  };
+  const Json two = merge("1"), one = merge("2"), again = merge("1");
+  EXPECT_EQ(two, Json::parse(R"({"synthetic": true, "people": 2, "attempts": 2, "there": 0})"));
+  EXPECT_EQ(one, Json::parse(R"({"synthetic": true, "people": 1, "attempts": 1, "there": 0})"));
+  EXPECT_EQ(again, Json::parse(R"({"synthetic": true, "people": 0, "attempts": 0, "there": 2})"));
+  const std::size_t before = ask("attempt list").at("attempts").size();
+  const Json all = ask("simulate" + words);
+  EXPECT_EQ(all.at("attempts").size(), 3U);
+  EXPECT_EQ(ask("attempt list").at("attempts").size(), before) << "nothing was left to be made";
 }
 
 TEST_F(SimulateTest, AFileOfSkillsMakesPeopleAboutItsOperator) {

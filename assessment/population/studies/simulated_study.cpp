@@ -39,7 +39,7 @@ void add_visits(const study::Plan& plan, const World& world, const Surrogate& su
   for (std::size_t visit = 0; visit < plan.visits.size(); ++visit) {
     if (!comes_to(one.person, visit)) return;
     const double day = (plan.visits[visit].from_day + plan.visits[visit].to_day) / 2.0;
-    Occasion occasion{base::hash_combine(1, std::uint64_t{surrogate.points()}), visit, 0.0};
+    Occasion occasion{base::hash_combine(1, std::uint64_t{surrogate.attempts().size()}), visit, 0.0};
     if (days_before.empty() || day > days_before.back())
       occasion.gain = gain_of(one.person.practice, days_before, day);
     days_before.push_back(day);

@@ -191,6 +191,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"backup", {out}, Action::keep_library},
       {"check", {"--repair"}, Action::keep_library},
       {"simulate", {"--case", "nowhere", "--operator", "expert"}, Action::simulate_attempts},
+      {"simulate merge", {"nowhere"}, Action::simulate_attempts},
       {"surrogate fit", {"--case", "nowhere", "--out", "s.json"}, Action::simulate_attempts},
       {"surrogate check", {"--case", "nowhere", "--surrogate", "s.json"}, Action::simulate_attempts},
       {"recovery", {}, Action::simulate_attempts},

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "assessment/population/studies/dose_response.h"
 #include "assessment/population/studies/simulated_study.h"
 #include "tests/assessment/population/known_attempts.h"
 #include "tests/assessment/study/sample_plan.h"
@@ -59,6 +60,33 @@ TEST(SimulatedStudies, IntervalsHoldWhatIsTrueAndPowerRisesWithTheShift) {
     EXPECT_GT(*one.truth, truth_before) << "the less able are further off";
     before = one.significant;
     truth_before = *one.truth;
+  }
+}
+
+// ln distance is .5 − .4 θ + .6 noise: with lapses θ has the variance 1.107, so one that is shifted by .8 is larger
+// than another with the probability Φ(−.32/√(2 (.16 · 1.107 + .36))) = .379.
+TEST(SimulatedStudies, IntervalsOfEveryMetricHoldWhatIsTrueOfIt) {
+  const std::vector<double> shifts = {0.0, 0.8};
+  const auto doses =
+      dose_response(fitted(), shifts, {.per_group = 30, .studies = kStudies, .truth_people = 50'000, .seed = 5});
+  ASSERT_EQ(doses.size(), 3U);
+  for (const MetricDose& one : doses) {
+    ASSERT_EQ(one.responses.size(), 2U);
+    EXPECT_NEAR(one.responses[0].area, 0.5, 5.0 * std::sqrt(1.0 / (12.0 * 20'000.0))) << one.metric;
+    for (const MetricResponse& at : one.responses) {
+      ASSERT_EQ(at.intervals, kStudies) << one.metric;
+      const double covered = static_cast<double>(at.covered) / static_cast<double>(at.intervals);
+      EXPECT_NEAR(covered, 0.95, 0.025 + three_errors(0.95, kStudies)) << one.metric;
+      EXPECT_LT(std::abs(at.paired), 0.06) << one.metric;
+      EXPECT_NEAR(at.mean_width, 0.28, 0.06) << one.metric;  // 2 · 1.96 √(61/(12 · 900)), less where there are ties
+    }
+    const double shifted = one.responses[1].area;
+    if (one.metric == "tip_target_dist") {
+      EXPECT_NEAR(shifted, 0.379, 0.02);
+    }
+    if (one.metric == "withdrawals_full") {
+      EXPECT_NEAR(shifted, 0.5, 0.02) << "it tells nothing";
+    }
   }
 }
 

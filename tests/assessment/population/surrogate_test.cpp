@@ -23,6 +23,8 @@ TEST(Surrogate, AgreesWithAttemptsThatItDoesNotKnow) {
     EXPECT_EQ(agreement.metrics.size(), 4U);
     EXPECT_EQ(agreement.pairs, 3U) << "one is the same in all";
     EXPECT_EQ(agreement.quantiles_beyond_chance, 0U);
+    EXPECT_LT(agreement.quantile_own_sd, 0.06);
+    EXPECT_LT(agreement.rank_correlation_own, 0.05);
     EXPECT_EQ(agreement.shares_beyond_chance, 0U);
     EXPECT_EQ(agreement.pairs_off, 0U) << agreement.worst_pair << agreement.worst_rank_correlation;
   }
@@ -33,7 +35,56 @@ TEST(Surrogate, AWrongOneIsFoundOut) {
   std::vector<SimulatedPoint> points = attempts_of({0.0, 1.2}, 1, 2000);
   for (SimulatedPoint& one : points) one.place[1] = 1.2 - one.place[1];
   const auto wrong = Surrogate::fit(known_mark(), points);
-  EXPECT_GT(agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3).quantiles_beyond_chance, 0U);
+  const auto agreement = agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3);
+  EXPECT_GT(agreement.quantiles_beyond_chance, 0U);
+  EXPECT_GT(agreement.quantile_own_sd, 0.1);
+}
+
+// What groups differ by, in 300 attempts of each that it does not know; and the same of the other way round is
+// found out.
+TEST(Surrogate, GroupsDifferAsTheirWholeAttemptsDo) {
+  const auto less = attempts_of({0.0}, 78, 300), more = attempts_of({0.8}, 79, 300);
+  const auto effects = effects_of(fitted(), less, more, 20, 3);
+  ASSERT_EQ(effects.size(), 3U) << "one is the same in all";
+  for (const EffectAgreement& one : effects) {
+    EXPECT_LT(std::abs(one.area_drawn - one.area), 3.0 * one.area_error) << one.metric;
+    EXPECT_LT(std::abs(one.d_drawn - one.d), 3.0 * one.d_error) << one.metric;
+    EXPECT_LT(std::abs(one.pairs), 0.2) << one.metric;  // of people of other seeds, 3.4 errors
+  }
+  const auto distance = std::find_if(effects.begin(), effects.end(),
+                                     [](const EffectAgreement& one) { return one.metric == "tip_target_dist"; });
+  ASSERT_NE(distance, effects.end());
+  EXPECT_LT(distance->d_drawn, 0.0) << "the able are nearer";
+  EXPECT_NEAR(distance->d_error, std::sqrt(2.0 / 270.0), 0.01);
+  // A surrogate whose people do the opposite draws the opposite difference.
+  std::vector<SimulatedPoint> points = attempts_of({0.0, 1.2}, 1, 2000);
+  for (SimulatedPoint& one : points) one.place[1] = 1.2 - one.place[1];
+  const auto wrong = Surrogate::fit(known_mark(), points);
+  for (const EffectAgreement& one : effects_of(*wrong, less, more, 20, 3)) {
+    if (one.metric != "tip_target_dist") continue;
+    EXPECT_GT(one.area_drawn - one.area, 3.0 * one.area_error);
+    EXPECT_GT(one.d_drawn - one.d, 3.0 * one.d_error);
+  }
+}
+
+// 48 and 52 of 100 are 1, the others 0: plain medians are a whole unit apart, those of grouped data .04 / .5.
+TEST(Surrogate, AShareThatPassesAMarkIsNoJump) {
+  const auto held = [](std::size_t ones) {
+    std::vector<SimulatedPoint> points = attempts_of({0.0}, 1, 100);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (std::size_t m = 0; m < points[p].values.size(); ++m)
+        points[p].values[m] = known_mark().metrics[m].id == "withdrawals_full"
+                                  ? std::optional<double>(p * 37 % 100 < ones ? 1.0 : 0.0)
+                                  : std::nullopt;
+    return points;
+  };
+  const auto surrogate = Surrogate::fit(known_mark(), held(48));
+  const auto agreement = agreement_of(*surrogate, held(52), 200, 3);
+  ASSERT_EQ(agreement.metrics.size(), 1U);
+  EXPECT_LT(std::abs(agreement.metrics[0].quantile_sd), 0.35)
+      << "of an SD of .5, with what draws are off by chance";
+  EXPECT_GT(agreement.metrics[0].quantile_error_sd, 0.05);
+  EXPECT_LT(agreement.quantile_own_sd, 0.2);
 }
 
 // E ln distance is .5 − .4 E θ: between the shifts it falls by .4 times the shift.

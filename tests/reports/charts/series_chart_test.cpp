@@ -83,7 +83,12 @@ TEST(IntervalChart, DrawsEstimatesOnOneAxis) {
   EXPECT_THAT(svg, HasSubstr("truth"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(svg, Not(HasSubstr(">b<")));
+  EXPECT_THAT(svg, Not(HasSubstr("<style>")));
   EXPECT_TRUE(interval_chart({}).empty());
+  chart.alone = true;
+  const std::string file = interval_chart(chart).str();
+  EXPECT_THAT(file, HasSubstr("xmlns=\"http://www.w3.org/2000/svg\""));
+  EXPECT_THAT(file, HasSubstr("<style>"));
 }
 
 }  // namespace

@@ -1,0 +1,125 @@
+#include "app/population/agreement_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/base/check.h"
+
+namespace seldinger::app {
+namespace {
+
+namespace population = assessment::population;
+
+constexpr double kErrors = 3.0;
+constexpr std::size_t kWorstShown = 5;
+
+double area_errors(const population::EffectAgreement& one) {
+  return std::abs(one.area_drawn - one.area) / one.area_error;
+}
+double d_errors(const population::EffectAgreement& one) {
+  return std::abs(one.d_drawn - one.d) / one.d_error;
+}
+
+template <typename... Numbers>
+void add_line(std::string& text, const char* format, Numbers... numbers) {
+  char line[512];
+  std::snprintf(line, sizeof line, format, numbers...);
+  text += line;
+}
+
+void add_levels(const std::vector<LevelAgreement>& levels, std::string& text) {
+  text += "| |";
+  for (const LevelAgreement& one : levels) text += " " + one.group + " |";
+  text += "\n|---|";
+  for (std::size_t i = 0; i < levels.size(); ++i) text += "---|";
+  text += "\n";
+  const auto row = [&](const char* what, const auto& cell) {
+    text += std::string("| ") + what + " |";
+    for (const LevelAgreement& one : levels) add_line(text, " %zu |", cell(one.agreement));
+    text += "\n";
+  };
+  const auto error_row = [&](const char* what, const auto& cell) {
+    text += std::string("| ") + what + " |";
+    for (const LevelAgreement& one : levels) add_line(text, " %.3f |", cell(one.agreement));
+    text += "\n";
+  };
+  using Level = const population::Agreement&;
+  row("attempts that it does not know", [](Level one) { return one.attempts; });
+  row("metrics", [](Level one) { return one.metrics.size(); });
+  row("metrics with a quantile (10, 50, 90 %) off by more than .1 SD", [](Level one) { return one.quantiles_off; });
+  row("of those beyond 3 standard errors, too", [](Level one) { return one.quantiles_beyond_chance; });
+  error_row("root mean square of what is off beyond chance, SD", [](Level one) { return one.quantile_own_sd; });
+  row("shares of nulls and zeros off by more than 3 points", [](Level one) { return one.shares_off; });
+  row("of those beyond 3 standard errors, too", [](Level one) { return one.shares_beyond_chance; });
+  row("pairs of metrics", [](Level one) { return one.pairs; });
+  row("pairs with a rank correlation off by more than .1", [](Level one) { return one.pairs_off; });
+  row("of those beyond 3 standard errors, too", [](Level one) { return one.pairs_beyond_chance; });
+  error_row("root mean square of what is off beyond chance", [](Level one) { return one.rank_correlation_own; });
+}
+
+void add_worst(const LevelAgreement& level, std::string& text) {
+  const population::Agreement& one = level.agreement;
+  std::vector<population::MetricAgreement> worst = one.metrics;
+  std::sort(worst.begin(), worst.end(),
+            [](const auto& a, const auto& b) { return std::abs(a.quantile_sd) > std::abs(b.quantile_sd); });
+  worst.resize(std::min(worst.size(), kWorstShown));
+  text += "\nFurthest off, " + level.group + ":";
+  for (const population::MetricAgreement& metric : worst)
+    add_line(text, " `%s` %+.2f SD (standard error %.2f),", metric.metric.c_str(), metric.quantile_sd,
+             metric.quantile_error_sd);
+  add_line(text, " and the rank correlation of %s, by %.2f (%.2f).\n", one.worst_pair.c_str(),
+           one.worst_rank_correlation, one.rank_correlation_error);
+}
+
+void add_effects(const GroupsAgreement& groups, std::string& text) {
+  add_line(text, "\n%s minus %s: %zu of %zu metrics with an area or a d off by more than 3 standard errors.\n",
+           groups.more.c_str(), groups.less.c_str(), effects_off(groups), groups.effects.size());
+  if (groups.effects.empty()) return;
+  const auto& paired = most_paired(groups);
+  add_line(text, "People of the same number in both: the largest rank correlation is %+.2f (`%s`).\n", paired.pairs,
+           paired.metric.c_str());
+  text +=
+      "\n| metric | area, whole | drawn | d, whole | drawn | furthest, in standard errors "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const population::EffectAgreement& one : groups.effects)
+    add_line(text, "| `%s` | %.3f ± %.3f | %.3f | %+.2f ± %.2f | %+.2f | %.1f |\n", one.metric.c_str(), one.area,
+             one.area_error, one.area_drawn, one.d, one.d_error, one.d_drawn,
+             std::max(area_errors(one), d_errors(one)));
+}
+
+}  // namespace
+
+std::size_t effects_off(const GroupsAgreement& groups) {
+  return static_cast<std::size_t>(
+      std::count_if(groups.effects.begin(), groups.effects.end(), [](const population::EffectAgreement& one) {
+        return !(area_errors(one) <= kErrors && d_errors(one) <= kErrors);
+      }));
+}
+
+const population::EffectAgreement& most_paired(const GroupsAgreement& groups) {
+  CHECK(!groups.effects.empty());
+  return *std::max_element(groups.effects.begin(), groups.effects.end(),
+                           [](const auto& a, const auto& b) { return std::abs(a.pairs) < std::abs(b.pairs); });
+}
+
+bool is_within_chance(const SurrogateAgreement& agreement) {
+  std::size_t beyond = 0;
+  for (const LevelAgreement& one : agreement.levels)
+    beyond += one.agreement.quantiles_beyond_chance + one.agreement.shares_beyond_chance +
+              one.agreement.pairs_beyond_chance;
+  for (const GroupsAgreement& one : agreement.effects) beyond += effects_off(one);
+  return beyond == 0;
+}
+
+std::string text_of_agreement(const SurrogateAgreement& agreement) {
+  std::string text =
+      "Simulated, nothing here is about people: what the surrogate draws, beside attempts simulated "
+      "whole.\n\n";
+  add_levels(agreement.levels, text);
+  for (const LevelAgreement& one : agreement.levels) add_worst(one, text);
+  for (const GroupsAgreement& one : agreement.effects) add_effects(one, text);
+  return text;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,32 @@
+// How a surrogate held against attempts that it does not know did, in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assessment/population/agreement.h"
+
+namespace seldinger::app {
+
+struct LevelAgreement {
+  std::string group;
+  assessment::population::Agreement agreement;
+};
+struct GroupsAgreement {
+  std::string less, more;
+  std::vector<assessment::population::EffectAgreement> effects;
+};
+struct SurrogateAgreement {
+  std::vector<LevelAgreement> levels;
+  std::vector<GroupsAgreement> effects;  // of every other level against the first
+};
+
+// Effects that are further apart than 3 standard errors.
+std::size_t effects_off(const GroupsAgreement& groups);
+// The metric whose people of the same number in the two groups are most alike or most unlike.
+const assessment::population::EffectAgreement& most_paired(const GroupsAgreement& groups);
+// Nothing is off by more than chance makes of so few attempts.
+bool is_within_chance(const SurrogateAgreement& agreement);
+std::string text_of_agreement(const SurrogateAgreement& agreement);  // Markdown
+
+}  // namespace seldinger::app

@@ -1,0 +1,122 @@
+// surrogate coverage.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/cli/command.h"
+#include "app/cli/file.h"
+#include "app/population/open_surrogate.h"
+#include "app/population/population_json.h"
+#include "assessment/population/studies/dose_response.h"
+
+namespace seldinger::app {
+namespace {
+
+namespace population = assessment::population;
+
+// What of intervals of 95 % may hold the truth: they are of the logit of an area.
+constexpr double kPlanned = 0.95, kMayBeOff = 0.025;
+
+double covered_share(const population::MetricResponse& one) {
+  return one.intervals == 0 ? NAN : static_cast<double>(one.covered) / static_cast<double>(one.intervals);
+}
+
+std::vector<double> shifts_of(const Arguments& arguments) {
+  if (!arguments.has("--shift")) return {0.0, 0.2, 0.5, 0.8, 1.2};
+  std::vector<double> shifts;
+  for (const std::string& text : arguments.all("--shift")) {
+    const double shift = parse_number(text).value_or(NAN);
+    if (!(std::abs(shift) <= kMostShift)) throw UsageError("--shift is a number of -5 to 5");
+    shifts.push_back(shift);
+  }
+  return shifts;
+}
+
+template <typename... Numbers>
+void print(const char* format, Numbers... numbers) {
+  std::printf(format, numbers...);
+}
+
+void print_sum(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
+  print(
+      "| shift | metrics | interval holds the truth, least | middle | most | outside 95 ± 2.5 %% | pairs, largest "
+      "rank correlation |\n|---|---|---|---|---|---|---|\n");
+  for (std::size_t s = 0; s < shifts.size(); ++s) {
+    std::vector<double> shares;
+    double paired = 0.0;
+    for (const population::MetricDose& one : doses) {
+      shares.push_back(covered_share(one.responses[s]));
+      paired = std::max(paired, std::abs(one.responses[s].paired));
+    }
+    std::sort(shares.begin(), shares.end());
+    const auto outside = std::count_if(shares.begin(), shares.end(),
+                                       [](double share) { return !(std::abs(share - kPlanned) <= kMayBeOff); });
+    print("| %g | %zu | %.1f %% | %.1f %% | %.1f %% | %td | %.3f |\n", shifts[s], shares.size(),
+          100.0 * shares.front(), 100.0 * shares[shares.size() / 2], 100.0 * shares.back(), outside, paired);
+  }
+}
+
+void print_metrics(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
+  print("\n| metric |");
+  for (const double shift : shifts) print(" shift %g |", shift);
+  print("\n|---|");
+  for (std::size_t s = 0; s < shifts.size(); ++s) print("---|");
+  print("\n");
+  for (const population::MetricDose& one : doses) {
+    print("| `%s` |", one.metric.c_str());
+    for (const population::MetricResponse& at : one.responses)
+      print(" %.3f (%.1f %%) |", at.area, 100.0 * covered_share(at));
+    print("\n");
+  }
+}
+
+int run_surrogate_coverage(const Arguments& arguments) {
+  const auto shifts = shifts_of(arguments);
+  population::DoseOptions options;
+  options.per_group = static_cast<std::size_t>(arguments.whole("--per-group", 30, 5, 10'000));
+  options.studies = static_cast<std::size_t>(arguments.whole("--studies", 2000, 10, 1'000'000));
+  options.truth_people = static_cast<std::size_t>(arguments.whole("--truth-people", 1'000'000, 1000, 10'000'000));
+  options.seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
+  const auto surrogate = surrogate_of(arguments);
+  if (!surrogate) return refuse(surrogate.error());
+  const auto doses = dose_response(*surrogate, shifts, options);
+  if (doses.empty()) return refuse({"bad_surrogate", "no metric of the surrogate differs between attempts"});
+  if (arguments.has("--json")) {
+    std::fputs(json_of_doses(doses, shifts, options).c_str(), stdout);
+    return kDone;
+  }
+  print(
+      "Simulated, nothing here is about people: %zu studies of %zu and %zu people a shift at `%s`, the truth of "
+      "%zu "
+      "in each group.\n\n",
+      options.studies, options.per_group, options.per_group, surrogate->mark().case_title.c_str(),
+      options.truth_people);
+  print_sum(doses, shifts);
+  print_metrics(doses, shifts);
+  return kDone;
+}
+
+constexpr Option kCoverageOptions[] = {
+    {"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote"},
+    {"--shift", "X",
+     "by how many standard deviations abilities are shifted; may be given many times; default 0, 0.2, "
+     "0.5, 0.8, 1.2",
+     true},
+    {"--per-group", "N", "people in each group; default 30"},
+    {"--studies", "N", "how many studies; default 2000"},
+    {"--truth-people", "N", "of each group, to tell what is true; default 1000000"},
+    {"--seed", "N", "of everything that is drawn; default 1"},
+    kJson};
+
+}  // namespace
+
+Command surrogate_coverage_command() {
+  return {.name = "surrogate coverage",
+          .options = kCoverageOptions,
+          .summary =
+              "Tells each metric's area under the ROC curve by how far abilities are shifted, and how often a "
+              "study's interval holds it.",
+          .run = &run_surrogate_coverage};
+}
+
+}  // namespace seldinger::app

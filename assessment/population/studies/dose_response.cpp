@@ -1,0 +1,123 @@
+#include "assessment/population/studies/dose_response.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assessment/population/streams.h"
+#include "assessment/statistics/ranks.h"
+#include "assessment/statistics/relations/discrimination.h"
+
+namespace seldinger::assessment::population {
+namespace {
+
+constexpr std::size_t kCrowd = 20'000;    // areas of so many are found at once, and their mean is the truth
+constexpr std::size_t kFewest = 2;        // with a value, in either group
+constexpr std::uint64_t kTruthStudy = 0;  // the number of the study that tells the truth: none of those drawn
+
+using Rows = std::vector<Values>;
+
+std::vector<double> column(const Rows& rows, std::size_t m) {
+  std::vector<double> values;
+  for (const Values& row : rows)
+    if (row[m]) values.push_back(*row[m]);
+  return values;
+}
+
+// The people of a study from one number to another, at one attempt each.
+Rows drawn_people(const Surrogate& surrogate, const Group& group, std::uint64_t seed, std::uint64_t study,
+                  std::size_t first, std::size_t past) {
+  const std::uint64_t key = base::hash_combine(base::hash_combine(0x646f7365ULL, seed), study);
+  Rows rows;
+  for (std::size_t number = first; number < past; ++number)
+    rows.push_back(surrogate.draw(drawn_person(group, key, number), {1, 0, 0.0}));
+  return rows;
+}
+
+// Whom the shifted are held against: the same abilities as those of shift 0, and other people.
+Group others() {
+  Group group = shifted_group(0.0);
+  group.name = "others";
+  return group;
+}
+
+double paired_correlation(const Rows& a, const Rows& b, std::size_t m) {
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < std::min({a.size(), b.size(), kPairs}); ++i)
+    if (a[i][m] && b[i][m]) {
+      x.push_back(*a[i][m]);
+      y.push_back(*b[i][m]);
+    }
+  const auto p = statistics::midranks(x), q = statistics::midranks(y);
+  const double middle = (static_cast<double>(x.size()) + 1.0) / 2.0;
+  double pq = 0.0, pp = 0.0, qq = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    pq += (p[i] - middle) * (q[i] - middle);
+    pp += (p[i] - middle) * (p[i] - middle);
+    qq += (q[i] - middle) * (q[i] - middle);
+  }
+  return pp > 0.0 && qq > 0.0 ? pq / std::sqrt(pp * qq) : 0.0;
+}
+
+// By metric and shift.
+using Responses = std::vector<std::vector<MetricResponse>>;
+
+// What of each metric is true, and the pairs; answers which metrics are not the same in all.
+std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> groups, const DoseOptions& options,
+                            Responses& responses) {
+  const std::size_t metrics = responses.size();
+  std::vector<bool> varies(metrics, false);
+  std::vector<std::vector<double>> sums(metrics, std::vector<double>(groups.size())), crowds = sums;
+  for (std::size_t first = 1; first <= options.truth_people; first += kCrowd) {
+    const std::size_t past = std::min(first + kCrowd, options.truth_people + 1);
+    const Rows base = drawn_people(surrogate, others(), options.seed, kTruthStudy, first, past);
+    for (std::size_t s = 0; s < groups.size(); ++s) {
+      const Rows rows = drawn_people(surrogate, groups[s], options.seed, kTruthStudy, first, past);
+      for (std::size_t m = 0; m < metrics; ++m) {
+        const auto less = column(base, m), more = column(rows, m);
+        if (std::min(less.size(), more.size()) < kFewest) continue;
+        const auto roc = statistics::roc_area(more, less);
+        varies[m] = varies[m] || roc.variance() > 0.0;
+        sums[m][s] += roc.area;
+        crowds[m][s] += 1.0;
+        if (first == 1) responses[m][s].paired = paired_correlation(base, rows, m);
+      }
+    }
+  }
+  for (std::size_t m = 0; m < metrics; ++m)
+    for (std::size_t s = 0; s < groups.size(); ++s)
+      if (crowds[m][s] > 0.0) responses[m][s].area = sums[m][s] / crowds[m][s];
+  return varies;
+}
+
+void add_study(const Rows& base, const Rows& rows, std::size_t m, MetricResponse& one) {
+  const auto less = column(base, m), more = column(rows, m);
+  if (std::min(less.size(), more.size()) < kFewest) return;
+  const auto interval = statistics::roc_interval(statistics::roc_area(more, less));
+  ++one.intervals;
+  one.mean_width += (interval.high - interval.low - one.mean_width) / static_cast<double>(one.intervals);
+  one.covered += interval.low <= one.area && one.area <= interval.high ? 1U : 0U;
+}
+
+}  // namespace
+
+std::vector<MetricDose> dose_response(const Surrogate& surrogate, std::span<const double> shifts,
+                                      const DoseOptions& options) {
+  std::vector<Group> groups;
+  for (const double shift : shifts) groups.push_back(shifted_group(shift));
+  Responses responses(surrogate.mark().metrics.size(), std::vector<MetricResponse>(shifts.size()));
+  const std::vector<bool> varies = add_truth(surrogate, groups, options, responses);
+  for (std::size_t study = 1; study <= options.studies; ++study) {
+    const Rows base = drawn_people(surrogate, others(), options.seed, study, 1, options.per_group + 1);
+    for (std::size_t s = 0; s < groups.size(); ++s) {
+      const Rows rows = drawn_people(surrogate, groups[s], options.seed, study, 1, options.per_group + 1);
+      for (std::size_t m = 0; m < responses.size(); ++m)
+        if (varies[m]) add_study(base, rows, m, responses[m][s]);
+    }
+  }
+  std::vector<MetricDose> doses;
+  for (std::size_t m = 0; m < responses.size(); ++m)
+    if (varies[m]) doses.push_back({surrogate.mark().metrics[m].id, std::move(responses[m])});
+  return doses;
+}
+
+}  // namespace seldinger::assessment::population

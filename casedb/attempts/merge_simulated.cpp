@@ -1,0 +1,122 @@
+#include "casedb/attempts/merge_simulated.h"
+
+#include <cstdlib>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "assessment/population/streams.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/case_checks.h"
+#include "casedb/people/facts.h"
+#include "casedb/people/simulated_people.h"
+
+namespace seldinger::casedb {
+namespace {
+
+namespace population = assessment::population;
+
+// What tells two attempts of a person apart. Needle and picture follow from the case and their kinds.
+auto key_of(const AttemptHead& one) {
+  return std::tuple(one.case_id, one.lesion_id, one.instrument.kind, one.picture.modality, one.seed);
+}
+
+struct Arriving {
+  population::Person person;
+  SimulatedTruth truth;
+  std::vector<AttemptRow> attempts;
+};
+
+population::Person person_of(Library& from, const SimulatedTruth& truth) {
+  population::Person person;
+  person.key = population::person_key(truth.seed, truth.group, truth.number);
+  person.group = truth.group;
+  person.number = truth.number;
+  person.ability = truth.ability;
+  person.strategy = truth.strategy;
+  const auto facts = newest_facts(list_facts(from, truth.person_id));
+  if (const auto years = facts.find("years_in_radiology"); years != facts.end())
+    person.years = std::strtod(years->second.answer.c_str(), nullptr);
+  return person;
+}
+
+bool is_same(const SimulatedTruth& a, const SimulatedTruth& b) {
+  return a.people_version == b.people_version && a.ability == b.ability && a.strategy == b.strategy;
+}
+
+base::Result<void> check_person(const Arriving& one, const std::vector<SimulatedTruth>& here) {
+  if (simulated_person_id(one.person) != one.truth.person_id)
+    return base::Error{"damaged", "a simulated person of that library is not who their seed and number make"};
+  for (const SimulatedTruth& known : here)
+    if (known.person_id == one.truth.person_id && !is_same(known, one.truth))
+      return base::Error{"person_differs", "a simulated person of that library is here with other abilities"};
+  if (one.truth.people_version != population::kPeopleVersion)
+    return base::Error{"person_differs",
+                       "that library's people are of another model of people than this program's"};
+  return {};
+}
+
+base::Result<void> check_case(Library& into, Library& from, const std::string& case_id) {
+  if (const auto known = find_case(into, case_id); !known) return known.error();
+  if (content_mark(into, case_id) != content_mark(from, case_id))
+    return base::Error{"case_differs", "a case of that library is here with other content"};
+  return {};
+}
+
+base::Result<void> add(Library& into, Library& from, const AttemptRow& row) {
+  NewAttempt made;
+  static_cast<AttemptHead&>(made) = row;
+  made.duration_s = row.duration_s;
+  made.end = row.end;
+  made.metrics = row.metrics;
+  made.steps = list_steps(from, row.attempt_id);
+  auto recording = load_recording(from, row.attempt_id);
+  if (!recording) return recording.error();
+  made.recording = std::move(*recording);
+  if (!row.picture_sha256.empty()) {
+    auto picture = from.load_asset(row.picture_sha256);
+    if (!picture) return picture.error();
+    made.picture_png = std::move(*picture);
+  }
+  const auto added = add_attempt(into, made);
+  return added ? base::Result<void>() : added.error();
+}
+
+}  // namespace
+
+base::Result<Merged> merge_simulated(Library& into, Library& from) {
+  const std::vector<SimulatedTruth> here = list_simulated_truths(into);
+  std::vector<Arriving> all;
+  std::set<std::string> case_ids;
+  for (SimulatedTruth& truth : list_simulated_truths(from)) {
+    Arriving& one = all.emplace_back(Arriving{person_of(from, truth), truth, {}});
+    if (const auto sound = check_person(one, here); !sound) return sound.error();
+    one.attempts = list_bare_attempts_of(from, truth.person_id);
+    for (const AttemptRow& row : one.attempts) case_ids.insert(row.case_id);
+  }
+  for (const std::string& case_id : case_ids)
+    if (const auto same = check_case(into, from, case_id); !same) return same.error();
+  Merged merged;
+  std::set<std::string> known;
+  for (const SimulatedTruth& one : here) known.insert(one.person_id);
+  for (const Arriving& one : all) {
+    const std::string& person_id = one.truth.person_id;
+    simulated_person(into, one.person, one.truth.seed);
+    merged.people += known.contains(person_id) ? 0U : 1U;
+    std::set<decltype(key_of({}))> there;
+    for (const AttemptRow& row : list_bare_attempts_of(into, person_id)) there.insert(key_of(row));
+    for (const AttemptRow& row : list_attempts_of(from, person_id)) {
+      if (!there.insert(key_of(row)).second) {
+        ++merged.there;
+        continue;
+      }
+      if (const auto added = add(into, from, row); !added) return added.error();
+      ++merged.attempts;
+    }
+  }
+  return merged;
+}
+
+}  // namespace seldinger::casedb
