@@ -387,6 +387,8 @@ Collected collect(const Plan& plan, const Outcome& outcome, const std::vector<St
       contributions.push_back(one);
       if (one.counted == Counted::value) value.values.push_back(one.value);
       hands.insert(led_by);
+      value.hands.insert(led_by);
+      value.arms.insert(attempt.arm.empty() ? "none" : attempt.arm);
     }
     const OnePerson sum = of_one_person(*info, contributions);
     value.attempts = contributions.size();

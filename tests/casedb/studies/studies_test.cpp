@@ -9,6 +9,7 @@
 #include "casedb/database/credentials.h"
 #include "casedb/database/digests.h"
 #include "casedb/keeping/erase.h"
+#include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
@@ -273,7 +274,8 @@ TEST_F(StudiesTest, TheAnalysisReadsWhatDecidesIt) {
   parked.operator_name = kPersonOperator;
   parked.recording = sample_recording(50);
   parked.started_us = started_us_ + 1;
-  parked.conditions.needle_hand = cases::HandKind::mouse;
+  parked.conditions.needle_hand = cases::HandKind::arm;
+  parked.conditions.needle_arm = "Inverse3";
   parked.metrics = {{"procedure_performed", version("procedure_performed"), 1.0, "bool", ""},
                     {"tip_target_surface", version("tip_target_surface"), {}, "mm", "no_endpoint"},
                     {"skin_punctures", version("skin_punctures"), 0.0, "count", ""},
@@ -286,12 +288,36 @@ TEST_F(StudiesTest, TheAnalysisReadsWhatDecidesIt) {
   const auto rows = list_attempts_of(library_, nina);
   ASSERT_EQ(rows[0].metrics.size(), 5U);
   EXPECT_EQ(people[0].attempts[0].metrics.size(), 4U) << "neither asked about nor without an endpoint";
-  EXPECT_EQ(people[0].attempts[0].hand, "mouse");
+  EXPECT_EQ(people[0].attempts[0].hand, "arm");
+  EXPECT_EQ(people[0].attempts[0].arm, "Inverse3");
+  EXPECT_EQ(people[0].attempts[1].arm, "");
   const assessment::MetricInfo& nogo = *assessment::find_metric("nogo_length");
   EXPECT_EQ(assessment::contribution_of(nogo, people[0].attempts[0].metrics).counted,
             assessment::contribution_of(nogo, rows[0].metrics).counted);
   EXPECT_EQ(assessment::contribution_of(nogo, people[0].attempts[0].metrics).counted, assessment::Counted::left_out)
       << "it was said to be deferred";
+}
+
+// What somebody states after their enrolment may come of what they did.
+TEST_F(StudiesTest, BackgroundIsWhatStoodAtTheEnrolmentAndEverySite) {
+  freeze(study::sample_plan_json());
+  const std::string nina = somebody("nina", {{"years_in_radiology", "1"}, {"logbook_total", "4"}});
+  for (const char* site : {"North", "South", ""}) {
+    const auto cohort = add_cohort(library_, std::string("Cohort ") + site, "Programme", site);
+    ASSERT_TRUE(enrol(library_, *cohort, nina, Post::learner));
+    if (std::string_view(site) == "South") {
+      EXPECT_TRUE(end_enrolment(library_, *cohort, nina).has_value());
+    }
+  }
+  ASSERT_TRUE(give_fact(library_, nina, "logbook_total", "5"));
+  const std::string pseudonym = enrol_in_study(library_, study_id_, nina)->pseudonym;
+  ASSERT_TRUE(give_fact(library_, nina, "logbook_total", "90"));
+  ASSERT_TRUE(give_fact(library_, nina, "handedness", "left"));
+  const auto backgrounds = study_data(library_, *find_plan(library_, study_id_)).backgrounds;
+  ASSERT_EQ(backgrounds.size(), 1U);
+  EXPECT_EQ(backgrounds.at(pseudonym).answers,
+            (std::map<std::string, std::string>{{"years_in_radiology", "1"}, {"logbook_total", "5"}}));
+  EXPECT_EQ(backgrounds.at(pseudonym).sites, (std::vector<std::string>{"North", "South"}));
 }
 
 // Windows in days since the enrolment; an attempt counts on the first and the last of them.
