@@ -44,6 +44,7 @@ std::string why_left_out(const Plan& plan, const Outcome& outcome, const Visit& 
                              : "made by a person, in a study of simulated operators";
   if (attempt.case_id != outcome.case_id) return "at another case";
   if (attempt.day < visit.from_day || attempt.day > visit.to_day) return "outside of the visit's days";
+  if (attempt.too_late) return "begun after the data were locked";
   if (!attempt.cut_off.empty()) return attempt.cut_off;
   for (const Exclusion& one : plan.exclusions)
     if (is_excluded(one, attempt)) return one.why;

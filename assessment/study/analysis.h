@@ -22,6 +22,7 @@ struct StudyAttempt {
   std::string hand;                  // what led the needle; empty: not known
   std::string arm{};                 // the arm's model; empty: none led it, or it is not known
   std::vector<MetricValue> metrics;  // every version that is stored
+  bool too_late = false;             // begun after the data were locked
 };
 struct StudyPerson {
   std::string name;   // a pseudonym

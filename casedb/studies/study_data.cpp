@@ -13,6 +13,7 @@
 #include "casedb/grading/grading.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
+#include "casedb/studies/lock.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -51,6 +52,7 @@ std::set<std::string> metrics_of(const study::Plan& plan) {
 
 Background background_of(Library& library, const StudyEnrolment& of) {
   Background background;
+  background.group = of.group;
   for (const FactGiven& one : list_facts(library, of.person_id))  // the oldest first
     if (one.given_us <= of.enrolled_us) background.answers[one.fact_id] = one.answer;
   Statement rows = question(library.database(), "sites_of_person");
@@ -72,6 +74,7 @@ StudyData study_data(Library& library, const StoredPlan& stored) {
   data.flow.ever_enrolled = count_ever_enrolled(library, stored.study_id);
   for (const study::PlannedGroup& group : stored.plan.groups) data.flow.groups.push_back({group.name, 0, 0, 0, 0});
   const std::set<std::string> cases = cases_of(stored.plan), metrics = metrics_of(stored.plan);
+  const std::optional<StudyLock> lock = find_lock(library, stored.study_id);
   std::size_t known = 0;
   for (const StudyEnrolment& one : list_study_enrolments(library, stored.study_id)) {
     ++known;
@@ -97,7 +100,7 @@ StudyData study_data(Library& library, const StoredPlan& stored) {
       attempted = attempted || is_of_plan(stored.plan, cases, row);
       person.attempts.push_back({row.case_id, static_cast<double>(row.started_us - one.enrolled_us) / kStudyDayUs,
                                  row.synthetic(), cut_off_words(row), word_of(hands, row), word_of(arms, row),
-                                 every_version(row)});
+                                 every_version(row), lock && row.started_us > lock->locked_us});
     }
     flow->attempted += attempted ? 1U : 0U;
     data.people.push_back(std::move(person));

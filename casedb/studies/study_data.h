@@ -27,6 +27,7 @@ struct ParticipantFlow {
 
 // What is known of somebody beside what they did.
 struct Background {
+  std::string group;                           // that they are enrolled in
   std::map<std::string, std::string> answers;  // by fact id, as they stood at the enrolment
   std::vector<std::string> sites;  // of the cohorts in which they are or were learners, each once, by name
 };

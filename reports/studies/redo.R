@@ -4,7 +4,7 @@
 #
 # people.csv holds what each person has on each outcome, outcomes.csv how the plan compares them, answers.csv what was
 # answered to questionnaires, ratings.csv what raters gave, related.csv outcomes beside mean ratings and stated experience,
-# subgroups.csv who passed, imputed.csv what was drawn for absent people, numbers.csv what the report says. Each number that comes out otherwise is printed, then how
+# subgroups.csv who passed, baseline.csv what groups stated of themselves, imputed.csv what was drawn for absent people, numbers.csv what the report says. Each number that comes out otherwise is printed, then how
 # many were redone and the largest difference; the exit status is 1 where one differs. The p of a permutation test that
 # drew its deals and omega's interval, which is a bootstrap's, are redone with other draws, and may differ by what chance
 # makes of them.
@@ -19,6 +19,7 @@ answers <- table_of("answers.csv")
 ratings <- table_of("ratings.csv")
 related <- table_of("related.csv")
 subgroups <- table_of("subgroups.csv")
+baseline <- table_of("baseline.csv")
 imputed <- table_of("imputed.csv")
 numbers <- table_of("numbers.csv")
 for (name in c("value", "last_but_one", "last", "odd", "even")) people[[name]] <- as.numeric(people[[name]])
@@ -28,6 +29,7 @@ answers$score <- as.numeric(answers$score)
 for (name in c("each", "replay", "rater", "score")) ratings[[name]] <- as.numeric(ratings[[name]])
 for (name in c("value", "beside")) related[[name]] <- as.numeric(related[[name]])
 subgroups$passed <- as.numeric(subgroups$passed)
+baseline$value <- as.numeric(baseline$value)
 for (name in c("draw", "place", "value")) imputed[[name]] <- as.numeric(imputed[[name]])
 alpha <- 0.05   # of "would have been found"
 power <- 0.8
@@ -361,13 +363,18 @@ for (i in seq_len(nrow(outcomes))) {
   }
 }
 
-for (which in unique(numbers$outcome[numbers$rule %in% c("answers", "ratings", "related", "subgroups")])) {
+for (which in unique(numbers$outcome[numbers$rule %in% c("answers", "ratings", "related", "subgroups", "baseline")])) {
   number <- strsplit(which, " ")[[1]]
   said <- numbers[numbers$outcome == which, ]
   redone[[paste(which, said$rule[1])]] <- switch(said$rule[1],
     answers = of_scale(answers[answers$scale == number[2], ], said$number),
     ratings = of_round(ratings[ratings$of == which, ]),
     related = of_related(related[related$outcome == number[2] & related$other == number[4], ], number[2]),
+    baseline = {
+      stated <- baseline$value[baseline$group == number[2] & baseline$fact == number[3]]
+      quarters <- unname(quantile(stated, c(0.5, 0.25, 0.75)))
+      list(stated = length(stated), median = quarters[1], low_quartile = quarters[2], high_quartile = quarters[3])
+    },
     subgroups = {
       here <- subgroups[subgroups$outcome == number[2] & subgroups$by == number[4], ]
       of_subgroup(here[here$subgroup == number[6], ], here[here$subgroup == "1", ])

@@ -25,7 +25,7 @@ void add_relation(Html& rows, const assessment::study::Compared& one, const Othe
   rows.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
   rows.raw("<span class=\"why\">")
       .text(lower ? "lower is better: a ρ below 0 speaks for it" : "higher is better: a ρ above 0 speaks for it");
-  rows.raw("</span></th><td>").text(other.name).raw("<span class=\"why\">").text(other.detail);
+  rows.raw("</span></th><td>").text(other.name).raw(" <span class=\"why\">").text(other.detail);
   rows.raw("</span></td><td>").text(std::to_string(found.raw.n)).raw("</td><td>");
   rows.text(found.raw.estimate ? estimate_words(*found.raw.estimate, found.raw.ci95)
                                : "not estimated: too few, or all alike");

@@ -7,6 +7,7 @@
 
 #include "assessment/statistics/relations/proportions.h"
 #include "reports/export/csv_line.h"
+#include "reports/studies/numbers/baseline.h"
 #include "reports/studies/numbers/decision_numbers.h"
 #include "reports/studies/numbers/relations.h"
 #include "reports/studies/numbers/subgroups.h"
@@ -193,6 +194,19 @@ std::string subgroups_table(const ValidityReport& report) {
   return text;
 }
 
+std::string baseline_table_text(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"fact", "group", "value"}) line.text(name);
+  std::string text = line.take();
+  for (const BaselineRow& row : baseline_of(report.plan.plan, report.backgrounds))
+    for (std::size_t group = 0; group < row.groups.size(); ++group)
+      for (const double value : row.groups[group].stated) {
+        line.text(row.fact->id).whole(std::uint64_t{group + 1}).number(value);
+        text += line.take();
+      }
+  return text;
+}
+
 // What was drawn for who is absent, in the order of people.csv, group by group.
 std::string imputed_table(const ValidityReport& report) {
   CsvLine line;
@@ -301,6 +315,14 @@ void add_structure_numbers(Numbers& numbers, const ValidityReport& report) {
     add_named(numbers, "icc_one", one.one);
     add_named(numbers, "icc_mean", one.mean);
   }
+  for (const BaselineRow& row : baseline_of(report.plan.plan, report.backgrounds))
+    for (std::size_t group = 0; group < row.groups.size(); ++group) {
+      numbers.begin("group " + std::to_string(group + 1) + " " + std::string(row.fact->id), "baseline");
+      numbers.count("stated", row.groups[group].stated.size());
+      numbers.add("median", row.groups[group].median);
+      numbers.add("low_quartile", row.groups[group].low_quartile);
+      numbers.add("high_quartile", row.groups[group].high_quartile);
+    }
   each_related(report, [&](std::size_t number, std::size_t other, const std::string&, const Reliability& of_outcome,
                            const Related& found) {
     numbers.begin("outcome " + std::to_string(number) + " other " + std::to_string(other), "related");
@@ -354,6 +376,7 @@ std::vector<DataFile> report_data(const ValidityReport& report) {
           {"ratings.csv", ratings_table(report)},
           {"related.csv", related_table(report)},
           {"subgroups.csv", subgroups_table(report)},
+          {"baseline.csv", baseline_table_text(report)},
           {"imputed.csv", imputed_table(report)},
           {"numbers.csv", numbers_table(report)},
           {"redo.R", std::string(base::content_of(embedded::study_files(), "redo.R"))}};

@@ -31,6 +31,7 @@ ValidityReport validity_report_of(casedb::Library& library, const casedb::Study&
           report.marks.cuts[row->case_id] = casedb::list_cuts(library, row->case_id);
         }
     report.data_hash = casedb::data_hash(report.result);
+    report.lock = casedb::find_lock(library, plan.study_id);
     casedb::note_look(library, plan.study_id, query, casedb::people_with_outcome(report.result));
   }
   report.looks = casedb::list_looks(library, plan.study_id);

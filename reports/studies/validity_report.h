@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "assessment/study/analysis.h"
 #include "casedb/people/consent.h"
 #include "casedb/ratings/rated_people.h"
+#include "casedb/studies/lock.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
 #include "reports/studies/numbers/decision_numbers.h"
@@ -28,6 +30,7 @@ struct ValidityReport {
   casedb::ParticipantFlow flow;
   assessment::study::StudyResult result;
   std::string data_hash;
+  std::optional<casedb::StudyLock> lock;
   std::vector<casedb::RatedPeople> ratings;
   std::vector<casedb::RatedRound> rated_rounds;
   std::vector<FormReliability> forms;

@@ -5,7 +5,6 @@
 
 #include "assessment/statistics/ranks.h"
 #include "assessment/statistics/relations/correlation.h"
-#include "casedb/people/facts.h"
 
 namespace seldinger::reports {
 namespace {
@@ -56,14 +55,21 @@ Reliability rating_reliability(const casedb::RatedPeople& rated) {
   return {*icc.estimate, {}};
 }
 
+std::map<std::string, double> stated_of(const casedb::FactInfo& fact,
+                                        const std::map<std::string, casedb::Background>& people) {
+  std::map<std::string, double> stated;
+  for (const auto& [name, background] : people)
+    if (const auto answer = background.answers.find(std::string(fact.id)); answer != background.answers.end())
+      stated.emplace(name, number_of(answer->second));
+  return stated;
+}
+
 std::vector<Other> stated_experience(const std::map<std::string, casedb::Background>& people) {
   std::vector<Other> all;
   for (const casedb::FactInfo& fact : casedb::fact_infos()) {
     if (fact.is_choice()) continue;
-    Other one{std::string(fact.words), "as stated at the enrolment", {}, {{}, "it was stated once"}};
-    for (const auto& [name, background] : people)
-      if (const auto answer = background.answers.find(std::string(fact.id)); answer != background.answers.end())
-        one.value.emplace(name, number_of(answer->second));
+    Other one{
+        std::string(fact.words), "as stated at the enrolment", stated_of(fact, people), {{}, "it was stated once"}};
     if (!one.value.empty()) all.push_back(std::move(one));
   }
   return all;

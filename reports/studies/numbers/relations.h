@@ -11,6 +11,7 @@
 #include "assessment/statistics/answer.h"
 #include "assessment/statistics/data_table.h"
 #include "assessment/study/analysis.h"
+#include "casedb/people/facts.h"
 #include "casedb/ratings/rated_people.h"
 #include "casedb/studies/study_data.h"
 
@@ -35,6 +36,9 @@ struct Other {
   std::map<std::string, double> value;  // by pseudonym
   Reliability reliability;
 };
+// What people stated to one, where it is a number; by pseudonym.
+std::map<std::string, double> stated_of(const casedb::FactInfo& fact,
+                                        const std::map<std::string, casedb::Background>& people);
 // Each fact that is a number and that somebody stated, in the order of facts.h.
 std::vector<Other> stated_experience(const std::map<std::string, casedb::Background>& people);
 Other mean_rating(const casedb::RatedPeople& rated);

@@ -15,6 +15,7 @@
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
 #include "casedb/people/simulated_people.h"
+#include "casedb/studies/lock.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
 #include "casedb/studies/visits.h"
@@ -258,6 +259,41 @@ TEST_F(StudiesTest, TheAnalysisIsOfWhoTakesPartAndStillConsents) {
   EXPECT_EQ(fewest.primary[0].second.persons, 2U);
   EXPECT_EQ(erased.unknown, 1U);
   EXPECT_EQ(erased.ever_enrolled, 6U);
+  EXPECT_TRUE(damaged_values(library_.database()).empty());
+}
+
+TEST_F(StudiesTest, WhatIsBegunAfterTheLockIsNotAnalysed) {
+  ASSERT_TRUE(store_plan(library_, study_id_, plan_of(study::sample_plan_json())));
+  EXPECT_EQ(code(lock_data(library_, *find_plan(library_, study_id_))), "plan_not_frozen");
+  ASSERT_TRUE(freeze_plan(library_, study_id_));
+  const StoredPlan plan = *find_plan(library_, study_id_);
+  std::vector<std::string> people;
+  for (const char* name : {"f1", "f2", "m1", "m2"}) {
+    people.push_back(somebody(name, {{"years_in_radiology", name[0] == 'f' ? "1" : "20"}}));
+    started_us_ = enrol_in_study(library_, study_id_, people.back())->enrolled_us + 1;
+    if (people.size() < 4) attempt(people.back(), 3.0);
+  }
+  const auto hash = [&] { return data_hash(study::analyse(plan.plan, study_data(library_, plan).people)); };
+  EXPECT_FALSE(find_lock(library_, study_id_));
+  const auto lock = lock_data(library_, plan);
+  ASSERT_TRUE(lock);
+  EXPECT_EQ(lock->data_hash, hash());
+  EXPECT_EQ(lock->people, 3);
+  EXPECT_EQ(code(lock_data(library_, plan)), "data_locked");
+  started_us_ = lock->locked_us + 1;
+  attempt(people[3], 8.0);
+  attempt(people[0], 8.0);
+  EXPECT_EQ(hash(), lock->data_hash);
+  const auto result = study::analyse(plan.plan, study_data(library_, plan).people);
+  EXPECT_TRUE(std::any_of(
+      result.primary[0].left_out.begin(), result.primary[0].left_out.end(),
+      [](const auto& one) { return one.why == "begun after the data were locked" && one.attempts == 2; }));
+  EXPECT_EQ(code(enrol_in_study(library_, study_id_, somebody("late", {{"years_in_radiology", "1"}}))),
+            "data_locked");
+  for (const char* change : {"UPDATE study_lock SET people = 0", "DELETE FROM study_lock"})
+    EXPECT_TRUE(refused_by_constraint([&] { library_.database().run(change); })) << change;
+  ASSERT_TRUE(withdraw_consent(library_, people[1], text_id_));
+  EXPECT_NE(hash(), lock->data_hash) << "who withdraws is gone, and the hash tells";
   EXPECT_TRUE(damaged_values(library_.database()).empty());
 }
 

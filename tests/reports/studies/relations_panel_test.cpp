@@ -40,7 +40,7 @@ TEST(RelationsPanel, HoldsRanksOfOutcomesAgainstRanksOfRatings) {
                                                          {"P-7", 5.0},
                                                          {"P-8", 5.0}}))
                                .str();
-  EXPECT_THAT(page, HasSubstr("Mean rating: Global &lt;rating&gt;, version 2<span class=\"why\">14 ratings"));
+  EXPECT_THAT(page, HasSubstr("Mean rating: Global &lt;rating&gt;, version 2 <span class=\"why\">14 ratings"));
   EXPECT_THAT(page, HasSubstr("lower is better: a ρ below 0 speaks for it"));
   EXPECT_THAT(page, HasSubstr("<td>6</td><td>−1.00")) << "a longer way, a lower rating; failures have no value";
   // By hand: ranks of ratings 1 3 2 4 6 5, so rho = 1 - 6 (1 + 1 + 1 + 1) / (6 * 35).

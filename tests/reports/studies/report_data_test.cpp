@@ -76,6 +76,7 @@ void add_structure(ValidityReport& report, std::uint64_t seed) {
   report.ratings.push_back(std::move(people));
   for (const study::PersonValue& one : report.result.primary[0].people) {
     casedb::Background& background = report.backgrounds[one.name];
+    background.group = one.group;
     background.answers["logbook_total"] = std::to_string(static_cast<int>(20.0 * rng.uniform()));
     background.answers["handedness"] = rng.uniform() < 0.3 ? "left" : "right";
     if (rng.uniform() < 0.8) background.sites = {rng.uniform() < 0.5 ? "=North" : "South"};
@@ -144,12 +145,12 @@ TEST(ReportData, HoldsStructureAndWhatWasDrawn) {
   for (std::uint64_t seed = 1; seed <= 8 && numbers.find(",imputed,") == std::string::npos; ++seed) {
     ValidityReport report = random_report(seed, "welch", 40);
     add_structure(report, seed);
-    numbers = report_data(report).at(7).content;
+    numbers = report_data(report).at(8).content;
   }
   for (const char* one : {"scale 1,answers,alpha,", "scale 1,answers,omega_low,", "round 1,ratings,icc_mean_high,",
                           "outcome 1 other 1,related,rho_high,", "outcome 1 other 1,related,corrected_high,",
                           "outcome 1 other 2,related,rho,", "outcome 1 by 1 subgroup 2,subgroups,difference_low,",
-                          "1,imputed,estimate,"})
+                          "group 2 logbook_total,baseline,high_quartile,", "1,imputed,estimate,"})
     EXPECT_THAT(numbers, HasSubstr(one));
 }
 
@@ -157,7 +158,7 @@ TEST(ReportData, HoldsStructureAndWhatWasDrawn) {
 TEST(ReportData, ANumberThatIsOffIsTold) {
   SELDINGER_NEEDS_R();
   auto files = report_data(random_report(1, "welch", 20));
-  std::string& numbers = files[7].content;
+  std::string& numbers = files[8].content;
   const std::size_t at = numbers.find("1,plan,estimate,") + 16;
   const std::size_t end = numbers.find('\n', at);
   numbers.replace(at, end - at, std::to_string(std::stod(numbers.substr(at, end - at)) + 0.001));
@@ -165,6 +166,17 @@ TEST(ReportData, ANumberThatIsOffIsTold) {
   EXPECT_EQ(ran.exit_code, 1) << ran.out << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("differs: outcome 1 plan estimate"));
   EXPECT_THAT(ran.out, HasSubstr(" 1 differ"));
+}
+
+// The page with every panel: kept in the test's folder, to be looked at.
+TEST(ReportData, ThePageOfAllPanelsTellsNumbersOrWhyNot) {
+  ValidityReport report = random_report(3, "welch", 40);
+  add_structure(report, 3);
+  const std::string page = validity_page(report);
+  std::ofstream(fixtures::fresh_folder("validity_page") / "validity.html") << page;
+  for (const char* panel : {"Mean rating: Global, version 2", "Writing hand: left", "Site: ", "median (quartiles)"})
+    EXPECT_THAT(page, HasSubstr(panel));
+  for (const char* none : {">nan", " nan", "NaN", ">inf", " inf ", "-inf"}) EXPECT_THAT(page, Not(HasSubstr(none)));
 }
 
 TEST(ReportData, NamesNobody) {
