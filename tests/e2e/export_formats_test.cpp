@@ -1,9 +1,12 @@
 // A study's export in other formats, by the built program: the SQLite file holds what the tables hold, cell by
 // cell, and of nobody a name, an address or a date.
 #include <charconv>
+#include <cstdlib>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "casedb/attempts/attempts.h"
 #include "casedb/database/sqlite.h"
@@ -139,6 +142,61 @@ TEST_F(ExportFormats, TheSqliteFileHoldsTheTablesAndNobody) {
     }
   }
   EXPECT_GT(texts, 100);
+}
+
+// Read as the data dictionary says, and written again with 17 digits: file, row, column, number.
+constexpr const char* kReadByR = R"(
+d <- read.csv("data_dictionary.csv", colClasses = "character")
+for (file in c("attempts.csv", "metrics.csv", "steps.csv", "events.csv", "facts.csv")) {
+  types <- d$type[d$file == file]
+  x <- read.csv(file, colClasses = ifelse(types == "text", "character", "numeric"), na.strings = "", check.names = FALSE)
+  for (i in which(types != "text")) for (k in which(!is.na(x[[i]])))
+    cat(file, k - 1, names(x)[i], sprintf("%.17g", x[[i]][k]), "\n")
+})";
+constexpr const char* kReadByPandas = R"(
+import pandas as pd
+d = pd.read_csv("data_dictionary.csv", dtype=str)
+for file in ("attempts.csv", "metrics.csv", "steps.csv", "events.csv", "facts.csv"):
+    x = pd.read_csv(file, float_precision="round_trip", keep_default_na=False, na_values=[""])
+    for name, kind in zip(d[d.file == file].column, d[d.file == file].type):
+        for row, value in enumerate(x[name]):
+            if kind != "text" and not pd.isna(value): print(file, row, name, "%.17g" % value)
+)";
+
+TEST_F(ExportFormats, RAndPandasReadTheSameNumbers) {
+  library_.done("export --study Quagmire --raw events --key " + at("a.key") + " --out " + at("read"));
+  std::ofstream(at("read.R")) << kReadByR;
+  std::ofstream(at("read.py")) << kReadByPandas;
+  std::size_t numbers = 0;
+  const auto dictionary = fixtures::csv_table(fixtures::whole_file(at("read/data_dictionary.csv")));
+  std::map<std::string, fixtures::CsvTable> tables;
+  for (std::size_t i = 0; i < dictionary.rows.size(); ++i) {
+    const std::string file = dictionary.cell(i, "file"), column = dictionary.cell(i, "column");
+    if (file.find('/') != std::string::npos || dictionary.cell(i, "type") == "text") continue;
+    auto table = tables.find(file);
+    if (table == tables.end())
+      table = tables.emplace(file, fixtures::csv_table(fixtures::whole_file(at("read/" + file)))).first;
+    for (std::size_t row = 0; row < table->second.rows.size(); ++row)
+      numbers += table->second.cell(row, column).empty() ? 0U : 1U;
+  }
+  int readers = 0;
+  for (const auto& [is_there, reads] : {std::pair("Rscript --version", "Rscript --vanilla ../read.R"),
+                                        {"/usr/bin/python3 -c 'import pandas'", "/usr/bin/python3 ../read.py"}}) {
+    if (std::system((std::string(is_there) + " >/dev/null 2>&1").c_str()) != 0) continue;
+    ++readers;
+    const auto ran = fixtures::run("cd '" + at("read") + "' && " + reads, at("said"));
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    std::istringstream lines(ran.out);
+    std::string file, column, value;
+    std::size_t row = 0, same = 0;
+    while (lines >> file >> row >> column >> value) {
+      ASSERT_EQ(std::stod(value), std::stod(tables.at(file).cell(row, column))) << file << " " << column;
+      ++same;
+    }
+    EXPECT_EQ(same, numbers) << reads;
+  }
+  EXPECT_GT(numbers, 200U);
+  if (readers < 2) GTEST_SKIP() << "there is no R, or no pandas (Debian: r-base-core, python3-pandas) to read it";
 }
 
 TEST_F(ExportFormats, EachAttemptIsThereOnceInEachFormat) {
