@@ -99,6 +99,7 @@ namespace seldinger::app {
   ROW(study_enrol)              \
   ROW(study_look)               \
   ROW(study_deviate)            \
+  ROW(study_lock)               \
   ROW(study_simulate)           \
   ROW(study_stations)           \
   ROW(study_visits)             \

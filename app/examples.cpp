@@ -119,6 +119,7 @@ constexpr std::string_view kLines[] = {
     "workshop show DAY",
     "workshop close DAY",
     "study deviate Needles 'The room was moved'",
+    "study lock Needles",
     "study look Needles",
     "study show Needles",
     "study template --case 'Drill 1' --out drill-plan.json --library first-hour",

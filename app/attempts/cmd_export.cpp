@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <span>
+#include <utility>
 
 #include "app/acting/acting.h"
 #include "app/attempts/export_json.h"
@@ -17,28 +19,40 @@
 namespace seldinger::app {
 namespace {
 
-// "poses,events"; "none" for nothing.
-void choose(const std::string& text, reports::RawChoice& choice) {
-  choice.poses = choice.forces = choice.frames = choice.events = false;
-  if (text == "none") return;
+// "poses,events" into what they name; `words`: what may be named.
+void choose(const std::string& text, std::span<const std::pair<std::string_view, bool*>> words,
+            const std::string& usage) {
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t end = std::min(text.find(',', from), text.size());
-    const std::string word = text.substr(from, end - from);
-    bool* chosen = word == "poses"    ? &choice.poses
-                   : word == "forces" ? &choice.forces
-                   : word == "frames" ? &choice.frames
-                   : word == "events" ? &choice.events
-                                      : nullptr;
-    if (chosen == nullptr) throw UsageError("--raw takes none, or of poses, forces, frames and events");
-    *chosen = true;
+    const std::string_view word = std::string_view(text).substr(from, end - from);
+    const auto found = std::find_if(words.begin(), words.end(), [&](const auto& one) { return one.first == word; });
+    if (found == words.end()) throw UsageError(usage);
+    *found->second = true;
     from = end + 1;
   }
+}
+
+void choose_raw(const std::string& text, reports::RawChoice& choice) {
+  choice.poses = choice.forces = choice.frames = choice.events = false;
+  if (text == "none") return;
+  const std::pair<std::string_view, bool*> words[] = {
+      {"poses", &choice.poses}, {"forces", &choice.forces}, {"frames", &choice.frames}, {"events", &choice.events}};
+  choose(text, words, "--raw takes none, or of poses, forces, frames and events");
+}
+
+void choose_formats(const std::string& text, reports::RawChoice& choice) {
+  const std::pair<std::string_view, bool*> words[] = {{"sqlite", &choice.sqlite},
+                                                      {"slicer", &choice.slicer},
+                                                      {"xapi", &choice.xapi},
+                                                      {"motion-bids", &choice.motion_bids}};
+  choose(text, words, "--also takes of sqlite, slicer, xapi and motion-bids");
 }
 
 int run_export(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
   reports::RawChoice choice;
-  if (arguments.has("--raw")) choose(arguments.text("--raw"), choice);
+  if (arguments.has("--raw")) choose_raw(arguments.text("--raw"), choice);
+  if (arguments.has("--also")) choose_formats(arguments.text("--also"), choice);
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (arguments.has("--case")) choice.case_id = arguments.text("--case");
@@ -99,6 +113,9 @@ constexpr Option kExportOptions[] = {
     {"--case", "CASE", "attempts at this case only; default: every attempt"},
     {"--study", "STUDY", "of those who consent to it; default: of those who consent to research with this library"},
     {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
+    {"--also", "sqlite,slicer,xapi,motion-bids",
+     "the same in other formats, into the same folder: one SQLite file, 3D Slicer's markups and transforms, xAPI "
+     "statements, a Motion-BIDS data set"},
     {"--key", "FILE",
      "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
      "Keep it apart from what you pass on. With --study people's numbers are exact and their recordings are in it"},

@@ -230,6 +230,8 @@ constexpr ErrorCode kStudyCodes[] = {
     {"plan_frozen", kRefuses, "The plan is frozen, and stays as it is.",
      "`seldinger study deviate` notes what is done otherwise."},
     {"plan_not_frozen", kRefuses, "The plan is still a draft.", "`seldinger study freeze` freezes it."},
+    {"data_locked", kRefuses, "The study's data are locked, and stay so.",
+     "`seldinger study deviate` notes what is done otherwise."},
     {"no_consent", kRefuses, "The person's consent to the study does not stand.",
      "They give it on the dashboard, or `seldinger consent give` notes it."},
     {"already_enrolled", kRefuses, "The person takes part in the study already.", ""},

@@ -1,4 +1,4 @@
-// study template, plan, show, freeze, enrol, look, deviate.
+// study template, plan, show, freeze, enrol, look, deviate, lock.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -65,13 +65,16 @@ int run_study_show(const Arguments& arguments) {
   const auto plan = casedb::find_plan(open->library, open->study.study_id);
   if (!plan) return refuse(plan.error());
   const auto enrolments = casedb::list_study_enrolments(open->library, plan->study_id);
+  const auto lock = casedb::find_lock(open->library, plan->study_id);
   const auto looks = casedb::list_looks(open->library, plan->study_id);
   const auto deviations = casedb::list_deviations(open->library, plan->study_id);
   if (arguments.has("--json")) {
-    std::fputs(json_of_study(open->study, *plan, enrolments, looks, deviations).c_str(), stdout);
+    std::fputs(json_of_study(open->study, *plan, lock, enrolments, looks, deviations).c_str(), stdout);
     return kDone;
   }
   std::printf("%s\nplan %s, %s\n", plan->plan.title.c_str(), plan->body_hash.c_str(), state_of(*plan).c_str());
+  if (lock)
+    std::printf("data %s, locked %s\n", lock->data_hash.c_str(), reports::utc_text(lock->locked_us).c_str());
   std::printf("%d consent, %zu are enrolled\n", open->study.consenting, enrolments.size());
   for (const auto& group : plan->plan.groups)
     std::printf("  %-24s %td\n", group.name.c_str(),
@@ -179,6 +182,21 @@ int run_study_look(const Arguments& arguments) {
   return kDone;
 }
 
+int run_study_lock(const Arguments& arguments) {
+  auto open = open_study(arguments, "STUDY", Action::plan_study);
+  if (!open) return refuse(open.error());
+  const auto plan = casedb::find_plan(open->library, open->study.study_id);
+  if (!plan) return refuse(plan.error());
+  const auto lock = casedb::lock_data(open->library, *plan);
+  if (!lock) return refuse(lock.error());
+  if (arguments.has("--json"))
+    std::fputs(json_of_lock(*plan, *lock).c_str(), stdout);
+  else
+    std::printf("data locked %s, SHA-256 %s, %d people with an outcome\n",
+                reports::utc_text(lock->locked_us).c_str(), lock->data_hash.c_str(), lock->people);
+  return kDone;
+}
+
 int run_study_deviate(const Arguments& arguments) {
   auto open = open_study(arguments, "STUDY", Action::plan_study);
   if (!open) return refuse(open.error());
@@ -257,6 +275,19 @@ Command study_look_command() {
           .summary =
               "Does the planned analysis of a frozen plan and notes the look; of a draft, counts of all together.",
           .run = &run_study_look};
+}
+
+Command study_lock_command() {
+  return {.name = "study lock",
+          .positionals = "STUDY",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .acts = true,
+          .summary =
+              "Locks a study's data for good: attempts begun later are not analysed, and every report says whether "
+              "what it analyses is what was locked.",
+          .run = &run_study_lock};
 }
 
 Command study_deviate_command() {

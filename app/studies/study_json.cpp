@@ -28,6 +28,14 @@ Json json_of(const casedb::StudyEnrolment& one) {
           {"consents", one.consents}};
 }
 
+Json json_of(const casedb::StudyLock& lock) {
+  return {{"locked_us", lock.locked_us},
+          {"actor", lock.actor},
+          {"pseudonym", casedb::maybe(lock.pseudonym)},
+          {"data_sha256", lock.data_hash},
+          {"people", lock.people}};
+}
+
 Json json_of(const std::vector<casedb::StudyNote>& notes, const char* text, bool looks) {
   Json list = Json::array();
   for (const casedb::StudyNote& one : notes) {
@@ -95,7 +103,14 @@ std::string json_of_plan(const casedb::StoredPlan& plan) {
   return casedb::text(head_of(plan));
 }
 
+std::string json_of_lock(const casedb::StoredPlan& plan, const casedb::StudyLock& lock) {
+  Json json = head_of(plan);
+  json["lock"] = json_of(lock);
+  return casedb::text(json);
+}
+
 std::string json_of_study(const casedb::Study& study, const casedb::StoredPlan& plan,
+                          const std::optional<casedb::StudyLock>& lock,
                           const std::vector<casedb::StudyEnrolment>& enrolments,
                           const std::vector<casedb::StudyNote>& looks,
                           const std::vector<casedb::StudyNote>& deviations) {
@@ -105,6 +120,7 @@ std::string json_of_study(const casedb::Study& study, const casedb::StoredPlan& 
   json["plan"] = Json::parse(plan.body);
   for (const casedb::StudyEnrolment& one : enrolments) people.push_back(json_of(one));
   json["enrolments"] = std::move(people);
+  json["lock"] = lock ? json_of(*lock) : Json(nullptr);
   json["looks"] = json_of(looks, "query", true);
   json["deviations"] = json_of(deviations, "text", false);
   return casedb::text(json);

@@ -44,6 +44,7 @@ std::string why_left_out(const Plan& plan, const Outcome& outcome, const Visit& 
                              : "made by a person, in a study of simulated operators";
   if (attempt.case_id != outcome.case_id) return "at another case";
   if (attempt.day < visit.from_day || attempt.day > visit.to_day) return "outside of the visit's days";
+  if (attempt.too_late) return "begun after the data were locked";
   if (!attempt.cut_off.empty()) return attempt.cut_off;
   for (const Exclusion& one : plan.exclusions)
     if (is_excluded(one, attempt)) return one.why;
@@ -387,6 +388,8 @@ Collected collect(const Plan& plan, const Outcome& outcome, const std::vector<St
       contributions.push_back(one);
       if (one.counted == Counted::value) value.values.push_back(one.value);
       hands.insert(led_by);
+      value.hands.insert(led_by);
+      value.arms.insert(attempt.arm.empty() ? "none" : attempt.arm);
     }
     const OnePerson sum = of_one_person(*info, contributions);
     value.attempts = contributions.size();

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct StudyAttempt {
   bool synthetic = false;            // by a simulated operator
   std::string cut_off;               // how it ended through no decision of who made it; empty: it did not
   std::string hand;                  // what led the needle; empty: not known
+  std::string arm{};                 // the arm's model; empty: none led it, or it is not known
   std::vector<MetricValue> metrics;  // every version that is stored
+  bool too_late = false;             // begun after the data were locked
 };
 struct StudyPerson {
   std::string name;   // a pseudonym
@@ -41,6 +44,8 @@ struct PersonValue {
   std::size_t attempts = 0;
   std::vector<double> values{};  // of the attempts that count and have one, oldest first
   bool every_visit = true;       // came to each of the plan's; told by add_sensitivity
+  // Of the attempts that count, each once, by name.
+  std::set<std::string> hands{}, arms{};
 };
 
 struct GroupSum {

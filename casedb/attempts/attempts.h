@@ -108,8 +108,9 @@ base::Result<cases::Recording> load_recording(Library& library, const std::strin
 std::vector<assessment::StepResult> list_steps(Library& library, const std::string& attempt_id);
 // Nothing of it is known of attempts from before schema 13.
 Conditions find_conditions(Library& library, const std::string& attempt_id);
-// What led the needle in a person's attempts, where it is known.
-std::map<std::string, cases::HandKind> needle_hands_of(Library& library, const std::string& person_id);
+// What a condition that is a word (condition_table.h) was in a person's attempts, by attempt, where it is known.
+std::map<std::string, std::string> condition_words_of(Library& library, const std::string& person_id,
+                                                      const std::string& condition_id);
 std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id);
 // Those whose version is not there yet: older values are kept. How many; `no_attempt`.
 base::Result<std::size_t> add_metrics(Library& library, const std::string& attempt_id,

@@ -378,13 +378,13 @@ base::Result<cases::Recording> load_recording(Library& library, const std::strin
   return cases::recording_from_chunks(chunks);
 }
 
-std::map<std::string, cases::HandKind> needle_hands_of(Library& library, const std::string& person_id) {
-  std::map<std::string, cases::HandKind> hands;
-  Statement rows = question(library.database(), "needle_hands_of_person");
-  for (rows.bind("person_id", person_id); rows.step();)
-    if (const auto hand = base::from_name(cases::kHandKindNames, rows.view("words")))
-      hands.emplace(rows.text("attempt_id"), *hand);
-  return hands;
+std::map<std::string, std::string> condition_words_of(Library& library, const std::string& person_id,
+                                                      const std::string& condition_id) {
+  std::map<std::string, std::string> words;
+  Statement rows = question(library.database(), "condition_words_of_person");
+  for (rows.bind("person_id", person_id).bind("condition_id", condition_id); rows.step();)
+    words.emplace(rows.text("attempt_id"), rows.text("words"));
+  return words;
 }
 
 }  // namespace seldinger::casedb

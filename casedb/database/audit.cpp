@@ -63,6 +63,7 @@ constexpr ActRow kActRows[] = {
     {Act::enrol_in_study, "enrol_in_study", "enrols somebody in a study"},
     {Act::look_at_study, "look_at_study", "looks at a study's outcomes by group"},
     {Act::deviate_from_study, "deviate_from_study", "notes a deviation from a plan"},
+    {Act::lock_study_data, "lock_study_data", "locks the data of a study"},
     {Act::store_questionnaire, "store_questionnaire", "stores a questionnaire"},
     {Act::open_round, "open_round", "opens a questionnaire to be answered"},
     {Act::close_round, "close_round", "closes a round of a questionnaire"},

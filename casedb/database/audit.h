@@ -66,6 +66,7 @@ enum class Act {
   enrol_in_study,
   look_at_study,
   deviate_from_study,
+  lock_study_data,
   store_questionnaire,
   open_round,
   close_round,

@@ -44,6 +44,7 @@ constexpr PersonColumn kKept[] = {
     {"study_plan", "frozen_by"},
     {"study_look", "person_id"},
     {"study_deviation", "person_id"},
+    {"study_lock", "person_id"},
     {"questionnaire_round", "opened_by"},
     {"workshop", "opened_by"},
     {"cut", "proposed_by"},

@@ -20,7 +20,12 @@ std::vector<RatedPeople> rated_people(Library& library, const std::string& study
     std::size_t n = 0;
     double mean() const { return sum / static_cast<double>(n); }
   };
-  std::map<std::tuple<std::string, int, std::string>, std::map<std::string, std::map<std::string, Sum>>> found;
+  struct Found {
+    std::map<std::string, std::map<std::string, Sum>> people;  // and their replays
+    std::vector<assessment::rating::Rating> scores;
+    std::size_t each = 0;
+  };
+  std::map<std::tuple<std::string, int, std::string>, Found> found;
   std::map<std::pair<std::string, int>, std::string> titles;
   for (const Round& round : list_rounds(library)) {
     if (!round.rated || round.study_id != study_id) continue;
@@ -31,20 +36,25 @@ std::vector<RatedPeople> rated_people(Library& library, const std::string& study
       const auto view = views.find(one.view);
       if (one.part != assessment::rating::Part::rated || view == views.end()) continue;
       const auto& [case_id, pseudonym] = view->second;
-      Sum& of = found[{round.form_id, round.version, case_id}][pseudonym][one.view];
+      Found& here = found[{round.form_id, round.version, case_id}];
+      here.scores.push_back(one);
+      here.each = here.each == 0 ? ratings->each : std::min(here.each, ratings->each);
+      Sum& of = here.people[pseudonym][one.view];
       of.sum += one.score;
       ++of.n;
     }
   }
   std::vector<RatedPeople> all;
-  for (const auto& [key, people] : found) {
+  for (auto& [key, here] : found) {
     const auto& [form_id, version, case_id] = key;
     RatedPeople& rated = all.emplace_back();
     rated.form_id = form_id;
     rated.form_title = titles[{form_id, version}];
     rated.version = version;
     rated.case_id = case_id;
-    for (const auto& [pseudonym, replays] : people) {
+    rated.scores = std::move(here.scores);
+    rated.each = here.each;
+    for (const auto& [pseudonym, replays] : here.people) {
       Sum over;
       for (const auto& [view_id, replay] : replays) {
         over.sum += replay.mean();

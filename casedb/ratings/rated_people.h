@@ -16,6 +16,8 @@ struct RatedPeople {
   std::string case_id;
   std::size_t ratings = 0;             // without calibration and repeats, with a mean
   std::map<std::string, double> mean;  // by pseudonym: of the person's replays, each the mean of its ratings
+  std::vector<assessment::rating::Rating> scores{};  // without calibration and repeats: what agreement is of
+  std::size_t each = 0;                              // the fewest that a round gives a replay
 };
 std::vector<RatedPeople> rated_people(Library& library, const std::string& study_id);
 

@@ -13,6 +13,7 @@
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
+#include "casedb/studies/lock.h"
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
@@ -56,6 +57,8 @@ std::string stratum_of(const StoredPlan& stored, const Answers& answers) {
 base::Result<void> may_take_part(Library& library, const StoredPlan& stored, const std::string& person_id) {
   if (!stored.frozen())
     return base::Error{"plan_not_frozen", "people are enrolled when the plan is frozen (`seldinger study freeze`)"};
+  if (find_lock(library, stored.study_id))
+    return base::Error{"data_locked", "the study's data are locked: nobody is enrolled any more"};
   if (const auto known = check_person(library, person_id); !known) return known.error();
   if (!consenting_people(library, stored.study_id).contains(person_id))
     return base::Error{"no_consent", "the person's consent to this study does not stand"};

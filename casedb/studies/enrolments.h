@@ -20,8 +20,9 @@ struct StudyEnrolment {
   bool consents = true;  // still
 };
 
-// By the facts that hold now. `no_plan`, `plan_not_frozen`, `no_person`, `no_consent`, `already_enrolled`,
-// `fact_missing` (the person has not said what the plan asks), `no_group` (none fits, or more than one).
+// By the facts that hold now. `no_plan`, `plan_not_frozen`, `data_locked`, `no_person`, `no_consent`,
+// `already_enrolled`, `fact_missing` (the person has not said what the plan asks), `no_group` (none fits, or more
+// than one).
 base::Result<StudyEnrolment> enrol_in_study(Library& library, const std::string& study_id,
                                             const std::string& person_id);
 std::vector<StudyEnrolment> list_study_enrolments(Library& library, const std::string& study_id);

@@ -8,9 +8,12 @@
 #include "assessment/estimand.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/database/credentials.h"
+#include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/grading/grading.h"
 #include "casedb/people/consent.h"
+#include "casedb/people/facts.h"
+#include "casedb/studies/lock.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -47,6 +50,16 @@ std::set<std::string> metrics_of(const study::Plan& plan) {
   return metrics;
 }
 
+Background background_of(Library& library, const StudyEnrolment& of) {
+  Background background;
+  background.group = of.group;
+  for (const FactGiven& one : list_facts(library, of.person_id))  // the oldest first
+    if (one.given_us <= of.enrolled_us) background.answers[one.fact_id] = one.answer;
+  Statement rows = question(library.database(), "sites_of_person");
+  for (rows.bind("person_id", of.person_id); rows.step();) background.sites.push_back(rows.text("site"));
+  return background;
+}
+
 std::string digits_of_value(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
@@ -61,6 +74,7 @@ StudyData study_data(Library& library, const StoredPlan& stored) {
   data.flow.ever_enrolled = count_ever_enrolled(library, stored.study_id);
   for (const study::PlannedGroup& group : stored.plan.groups) data.flow.groups.push_back({group.name, 0, 0, 0, 0});
   const std::set<std::string> cases = cases_of(stored.plan), metrics = metrics_of(stored.plan);
+  const std::optional<StudyLock> lock = find_lock(library, stored.study_id);
   std::size_t known = 0;
   for (const StudyEnrolment& one : list_study_enrolments(library, stored.study_id)) {
     ++known;
@@ -74,16 +88,19 @@ StudyData study_data(Library& library, const StoredPlan& stored) {
     }
     study::StudyPerson person{one.pseudonym, one.group, {}};
     bool attempted = false;
-    const auto hands = needle_hands_of(library, one.person_id);
+    data.backgrounds.emplace(one.pseudonym, background_of(library, one));
+    const auto hands = condition_words_of(library, one.person_id, "needle_hand"),
+               arms = condition_words_of(library, one.person_id, "needle_arm");
+    const auto word_of = [](const auto& words, const AttemptRow& row) {
+      const auto found = words.find(row.attempt_id);
+      return found == words.end() ? std::string() : found->second;
+    };
     for (const AttemptRow& row : list_attempts_of(library, one.person_id, metrics)) {
       if (!cases.contains(row.case_id)) continue;
       attempted = attempted || is_of_plan(stored.plan, cases, row);
-      const auto hand = hands.find(row.attempt_id);
-      person.attempts.push_back(
-          {row.case_id, static_cast<double>(row.started_us - one.enrolled_us) / kStudyDayUs, row.synthetic(),
-           cut_off_words(row),
-           hand == hands.end() ? std::string() : std::string(base::name_of(cases::kHandKindNames, hand->second)),
-           every_version(row)});
+      person.attempts.push_back({row.case_id, static_cast<double>(row.started_us - one.enrolled_us) / kStudyDayUs,
+                                 row.synthetic(), cut_off_words(row), word_of(hands, row), word_of(arms, row),
+                                 every_version(row), lock && row.started_us > lock->locked_us});
     }
     flow->attempted += attempted ? 1U : 0U;
     data.people.push_back(std::move(person));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,16 @@ struct ParticipantFlow {
   std::vector<GroupFlow> groups;  // in the plan's order
 };
 
+// What is known of somebody beside what they did.
+struct Background {
+  std::string group;                           // that they are enrolled in
+  std::map<std::string, std::string> answers;  // by fact id, as they stood at the enrolment
+  std::vector<std::string> sites;  // of the cohorts in which they are or were learners, each once, by name
+};
+
 struct StudyData {
   std::vector<assessment::study::StudyPerson> people;  // by their pseudonyms, in the order of enrolment
+  std::map<std::string, Background> backgrounds;       // by pseudonym
   ParticipantFlow flow;                                // `analysed` by the first primary outcome
 };
 StudyData study_data(Library& library, const StoredPlan& stored);

@@ -1,5 +1,6 @@
 #include "reports/export/csv_line.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -18,6 +19,10 @@ double coarse(double value) noexcept {
 }
 
 }  // namespace
+
+double as_told(double value, Precision precision) noexcept {
+  return precision == Precision::coarse && std::isfinite(value) ? coarse(value) : value;
+}
 
 CsvLine& CsvLine::cell(std::string_view text) {
   if (!first_) line_ += ',';
@@ -41,7 +46,7 @@ CsvLine& CsvLine::text(std::string_view text) {
 
 CsvLine& CsvLine::number(double value) {
   if (!std::isfinite(value)) return nothing();
-  if (precision_ == Precision::coarse) value = coarse(value);
+  value = as_told(value, precision_);
   char digits[32];
   const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
   return cell({digits, static_cast<std::size_t>(end - digits)});
@@ -63,6 +68,29 @@ std::string CsvLine::take() {
   first_ = true;
   line_ += '\n';
   return std::exchange(line_, {});
+}
+
+bool next_csv_line(std::string_view& rest, std::vector<std::string>& cells) {
+  cells.clear();
+  if (rest.empty()) return false;
+  cells.emplace_back();
+  bool quoted = false;
+  std::size_t i = 0;
+  for (; i < rest.size() && (quoted || rest[i] != '\n'); ++i) {
+    if (rest[i] == '"') {
+      // A quote within quotes is written twice.
+      if (quoted && i + 1 < rest.size() && rest[i + 1] == '"')
+        cells.back() += rest[i++];
+      else
+        quoted = !quoted;
+    } else if (rest[i] == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += rest[i];
+    }
+  }
+  rest.remove_prefix(std::min(i + 1, rest.size()));
+  return true;
 }
 
 }  // namespace seldinger::reports

@@ -6,11 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace seldinger::reports {
 
 // How numbers are written: each as its own bits, or to two significant digits (docs/export.md says of whom).
 enum class Precision { exact, coarse };
+
+double as_told(double value, Precision precision) noexcept;  // the number that is written
 
 class CsvLine {
  public:
@@ -35,5 +38,8 @@ class CsvLine {
   std::string line_;
   bool first_ = true;
 };
+
+// Reads such lines again: the cells of the first of `rest`, which it leaves. False where nothing is left.
+bool next_csv_line(std::string_view& rest, std::vector<std::string>& cells);
 
 }  // namespace seldinger::reports

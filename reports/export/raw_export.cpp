@@ -8,11 +8,16 @@
 
 #include "casedb/attempts/attempt_history.h"
 #include "casedb/database/disk.h"
+#include "casedb/grading/grading.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "reports/export/data_package_json.h"
+#include "reports/export/formats/motion_bids_json.h"
+#include "reports/export/formats/slicer_json.h"
+#include "reports/export/formats/xapi_json.h"
 #include "reports/export/raw_tables.h"
 #include "reports/export/redcap.h"
+#include "reports/export/sqlite_tables.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::reports {
@@ -62,6 +67,15 @@ class Names {
   std::string of(const char* kind, const std::string& id) const {
     const auto hash = casedb::keyed_hash(key_, std::string(kind) + id);
     return kind + base::hex_from_bytes(std::span(hash).first(8));
+  }
+  // The same as a UUID by its name (RFC 9562, version 8: the bits are ours).
+  std::string uuid_of(const std::string& id) const {
+    auto hash = casedb::keyed_hash(key_, "uuid" + id);
+    hash[6] = (hash[6] & std::byte{0x0f}) | std::byte{0x80};
+    hash[8] = (hash[8] & std::byte{0x3f}) | std::byte{0x80};
+    std::string text = base::hex_from_bytes(std::span(hash).first(16));
+    for (const std::size_t at : {20U, 16U, 12U, 8U}) text.insert(at, 1, '-');
+    return text;
   }
 
  private:
@@ -153,6 +167,95 @@ void write_recording(const fs::path& folder, const RawChoice& choice, const std:
       events->add(line_of(event_columns(), EventFact{&attempt, event}, precision));
 }
 
+// The same in formats of other programs.
+class OtherFormats {
+ public:
+  OtherFormats(casedb::Library& library, fs::path folder, const RawChoice& choice)
+      : library_(library), folder_(std::move(folder)), choice_(choice), grader_(library) {}
+
+  // `recording` null: it stays in the library.
+  base::Result<void> add(const casedb::AttemptRow& row, const AttemptFacts& facts,
+                         const cases::Recording* recording, Precision precision, std::string id) {
+    const std::string person = facts.names.person.value_or("");
+    if (choice_.xapi)
+      statements_.push_back({std::move(id), person, facts.names.attempt, facts.names.case_id, row.synthetic(),
+                             grader_.grade(row).verdict, as_told(row.duration_s, precision)});
+    if (recording == nullptr) return {};
+    if (choice_.motion_bids) {
+      subjects_.push_back(bids_subject(person));
+      write(motion_bids_files(person, facts.names.attempt, *recording));
+    }
+    if (!choice_.slicer) return {};
+    auto skin = skins_.find(row.case_id);
+    if (skin == skins_.end()) {
+      const auto mesh = casedb::load_skin(library_, *facts.of_case);
+      if (!mesh) return mesh.error();
+      skin = skins_.emplace(row.case_id, cases::MeshIndex(*mesh)).first;
+    }
+    write(slicer_files(facts.names.attempt, *recording, row.lesion.center_lps_mm, skin->second));
+    return {};
+  }
+  // When all tables are written.
+  void close() {
+    if (choice_.xapi) write({{"xapi.json", xapi_statements(statements_)}});
+    if (choice_.motion_bids) write(motion_bids_head(subjects_));
+    if (!choice_.sqlite) return;
+    write_sqlite_tables(folder_);
+    ++files_;
+  }
+  std::size_t files() const noexcept { return files_; }
+
+ private:
+  void write(const std::vector<FormatFile>& files) {
+    for (const FormatFile& one : files) {
+      casedb::without_paths([&] { return fs::create_directories((folder_ / one.name).parent_path()); });
+      write_whole(folder_ / one.name, one.content);
+      ++files_;
+    }
+  }
+  casedb::Library& library_;
+  fs::path folder_;
+  RawChoice choice_;
+  casedb::Grader grader_;
+  std::map<std::string, cases::MeshIndex> skins_;  // by case
+  std::vector<XapiAttempt> statements_;
+  std::vector<std::string> subjects_;
+  std::size_t files_ = 0;
+};
+
+// attempts.csv, metrics.csv, steps.csv and, where it is asked for, events.csv.
+class AttemptTables {
+ public:
+  AttemptTables(const fs::path& at, bool with_events)
+      : attempts_(at / "attempts.csv", attempts_header()),
+        metrics_(at / "metrics.csv", header_of(metric_columns())),
+        steps_(at / "steps.csv", header_of(step_columns())) {
+    if (with_events) events_.emplace(at / "events.csv", header_of(event_columns()));
+  }
+  // All but the events, which the recording tells.
+  void add(casedb::Library& library, const AttemptFacts& facts, Precision precision, RawExport& sum) {
+    const std::string& name = facts.names.attempt;
+    attempts_.add(attempt_line(facts, precision));
+    for (const casedb::MetricValue& metric : casedb::list_metric_versions(library, facts.row->attempt_id)) {
+      metrics_.add(line_of(metric_columns(), MetricFact{&name, &metric}, precision));
+      ++sum.metrics;
+    }
+    for (const assessment::StepResult& step : casedb::list_steps(library, facts.row->attempt_id))
+      steps_.add(line_of(step_columns(), StepFact{&name, &step}, precision));
+    ++sum.attempts;
+    if (facts.row->synthetic()) ++sum.synthetic;
+  }
+  Table* events() noexcept { return events_ ? &*events_ : nullptr; }
+  void close() {
+    for (Table* one : {&attempts_, &metrics_, &steps_, events()})
+      if (one != nullptr) one->close();
+  }
+
+ private:
+  Table attempts_, metrics_, steps_;
+  std::optional<Table> events_;
+};
+
 // What those people said of themselves, in the order of their names; times since the person's first attempt.
 void write_facts(casedb::Library& library, std::span<const casedb::AttemptKey> keys, const Names& names,
                  const std::set<std::string>& people, Precision precision, Table& table) {
@@ -206,12 +309,10 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
   for (const auto& [wanted, name] :
        {std::pair{choice.poses, "poses"}, {choice.forces, "forces"}, {choice.frames, "frames"}})
     if (wanted) casedb::without_paths([&, name = name] { return fs::create_directory(at / name); });
-  Table attempts(at / "attempts.csv", attempts_header());
-  Table metrics(at / "metrics.csv", header_of(metric_columns()));
-  Table steps(at / "steps.csv", header_of(step_columns()));
-  std::optional<Table> events;
-  if (choice.events) events.emplace(at / "events.csv", header_of(event_columns()));
-  const bool recorded = choice.poses || choice.forces || choice.frames || choice.events;
+  AttemptTables tables(at, choice.events);
+  const bool recorded =
+      choice.poses || choice.forces || choice.frames || choice.events || choice.slicer || choice.motion_bids;
+  OtherFormats formats(library, at, choice);
   std::string person_before;
   std::set<std::string> people;  // whose own attempts are among them
   for (const Place& place : places_of(keys, choice, names, consenting)) {
@@ -229,32 +330,29 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
       people.insert(*place.key->person_id);
       person_before = place.person;
     }
-    attempts.add(attempt_line(facts, place.precision));
-    for (const casedb::MetricValue& metric : casedb::list_metric_versions(library, row->attempt_id)) {
-      metrics.add(line_of(metric_columns(), MetricFact{&place.attempt, &metric}, place.precision));
-      ++sum.metrics;
-    }
-    for (const assessment::StepResult& step : casedb::list_steps(library, row->attempt_id))
-      steps.add(line_of(step_columns(), StepFact{&place.attempt, &step}, place.precision));
+    tables.add(library, facts, place.precision, sum);
+    std::optional<cases::Recording> recording;
     if (recorded) {
-      const auto recording = casedb::load_recording(library, row->attempt_id);
-      if (!recording) return recording.error();
+      auto loaded = casedb::load_recording(library, row->attempt_id);
+      if (!loaded) return loaded.error();
+      recording = std::move(*loaded);
       RawChoice of_row = choice;
       if (place.precision == Precision::coarse) of_row.poses = of_row.forces = of_row.frames = false;
-      write_recording(at, of_row, place.attempt, *recording, place.precision, events ? &*events : nullptr, sum);
+      write_recording(at, of_row, place.attempt, *recording, place.precision, tables.events(), sum);
     }
-    ++sum.attempts;
-    if (row->synthetic()) ++sum.synthetic;
+    const bool leaves = recording && place.precision == Precision::exact;
+    if (const auto added = formats.add(*row, facts, leaves ? &*recording : nullptr, place.precision,
+                                       names.uuid_of(row->attempt_id));
+        !added)
+      return added.error();
   }
   Table facts(at / "facts.csv", header_of(fact_columns()));
   write_facts(library, keys, names, people, choice.exact ? Precision::exact : Precision::coarse, facts);
   facts.close();
-  attempts.close();
-  metrics.close();
-  steps.close();
-  if (events) events->close();
+  tables.close();
   write_descriptions(at, choice.events);
-  sum.files += choice.events ? 9 : 8;
+  formats.close();
+  sum.files += formats.files() + (choice.events ? 9 : 8);
   if (!folder.keep()) return base::Error{"exists", "there is already something of that name"};
   parents.keep();
   return sum;

@@ -19,6 +19,7 @@ struct RawChoice {
   std::optional<std::string>
       study_id{};  // of those who consent to it; none: who consent to research with the library
   bool poses = true, forces = true, frames = true, events = true;
+  bool sqlite = false, slicer = false, xapi = false, motion_bids = false;  // other formats of the same
   // Of people's attempts numbers as they are stored, and their recordings. False: two significant digits, whole
   // days, and of the recordings the events alone. What a simulated operator did is always exact.
   bool exact = false;

@@ -521,11 +521,21 @@ std::string_view coarse_rule(const TableInfo& table, const ColumnInfo& column) {
 
 }  // namespace
 
+const TableInfo& dictionary_table() {
+  static const TableInfo table = [] {
+    TableInfo made{"data_dictionary.csv", "what each column of each table means", {}};
+    for (const char* name : {"file", "column", "type", "unit", "version", "empty_when", "description", "better",
+                             "scale", "without_endpoint", "of_a_person", "of_people_without_key_and_study"})
+      made.columns.push_back(
+          {name, std::string_view(name) == "version" ? "integer" : "text", "", "there is none", name});
+    return made;
+  }();
+  return table;
+}
+
 std::string data_dictionary() {
   CsvLine line;
-  for (const char* name : {"file", "column", "type", "unit", "version", "empty_when", "description", "better",
-                           "scale", "without_endpoint", "of_a_person", "of_people_without_key_and_study"})
-    line.text(name);
+  for (const ColumnInfo& column : dictionary_table().columns) line.text(column.name);
   std::string text = line.take();
   for (const TableInfo& table : raw_tables())
     for (const ColumnInfo& column : table.columns) {
@@ -555,7 +565,10 @@ std::string raw_readme() {
       "an "
       "export without key and study\n"
       "datapackage.json: the tables, their columns' types and what is missing, for R's and Python's "
-      "frictionless\n\n"
+      "frictionless\n"
+      "Where they were asked for: export.sqlite, all tables in one file; slicer, points, ways and needles for 3D "
+      "Slicer; xapi.json, statements for a learning record store; motion-bids, the needle's poses as a BIDS data "
+      "set\n\n"
       "CSV as RFC 4180: UTF-8, comma, '.' decimals, LF, header in the first line. Numbers read back bit for bit. "
       "An "
       "empty cell is a missing value and never 0. Text that a spreadsheet would take for a formula begins with an "

@@ -121,7 +121,8 @@ struct TableInfo {
   std::vector<ColumnInfo> columns;
 };
 const std::vector<TableInfo>& raw_tables();
-std::string data_dictionary();  // CSV
-std::string raw_readme();       // text for who opens the folder
+const TableInfo& dictionary_table();  // data_dictionary.csv: a row a column of these
+std::string data_dictionary();        // CSV
+std::string raw_readme();             // text for who opens the folder
 
 }  // namespace seldinger::reports

@@ -56,7 +56,7 @@ constexpr ChecklistItem kChecklist[] = {
      [](const ValidityReport& report) { return std::string(report.plan.frozen() ? "section 6" : ""); }},
     {"Statistics", "Methods, repeated measures, missing data, multiplicity", &in_plan},
     {"Participant flow", "Numbers at each step, with reasons", &in_flow},
-    {"Baseline", "Characteristics of each group", &nowhere},
+    {"Baseline", "Characteristics of each group", &in_flow},
     {"Numbers analysed", "For each outcome", &in_results},
     {"Results", "Effects with intervals", &in_results},
     {"Harms", "Of taking part", &nowhere},

@@ -3,7 +3,7 @@
 #include "assessment/registry.h"
 #include "assessment/statistics/reasons.h"
 #include "assessment/statistics/relations/proportions.h"
-#include "reports/studies/decision_numbers.h"
+#include "reports/studies/numbers/decision_numbers.h"
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
 #include "reports/words/metric_words.h"
@@ -92,7 +92,7 @@ Html consequences_panel(const ValidityReport& report) {
   Html html = evidence_panel("Consequences", "What is decided by the numbers, and for whom");
   Html rows;
   for (const study::Compared& one : report.result.primary) {
-    const auto mark = pass_mark_of(report, one.outcome);
+    const auto mark = pass_mark_of(report.marks, one.outcome);
     if (!mark) continue;
     rows.raw("<tr><th scope=\"row\">").text(name_of_outcome(one)).raw("</th><td>");
     rows.text(mark->higher_is_better ? "at least " : "at most ");

@@ -1,3 +1,4 @@
+#include "reports/studies/numbers/baseline.h"
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
 
@@ -6,6 +7,31 @@ namespace {
 
 void add_box(Html& html, std::string_view words, std::size_t count) {
   html.raw("<div class=\"box\"><strong>").text(std::to_string(count)).raw("</strong> ").text(words).raw("</div>\n");
+}
+
+Html baseline_table(const ValidityReport& report) {
+  Html html;
+  const std::vector<BaselineRow> rows = baseline_of(report.plan.plan, report.backgrounds);
+  if (rows.empty()) return html.raw("<p>Nobody stated their experience before they were enrolled.</p>\n");
+  html.raw(
+      "<table><caption>What people stated of themselves before they were enrolled: median (quartiles); withheld of "
+      "fewer than 5</caption>\n<thead><tr><th scope=\"col\">Stated</th>");
+  for (const auto& group : report.plan.plan.groups) html.raw("<th scope=\"col\">").text(group.name).raw("</th>");
+  html.raw("</tr></thead><tbody>\n");
+  for (const BaselineRow& row : rows) {
+    html.raw("<tr><th scope=\"row\">").text(row.fact->words).raw("</th>");
+    for (const BaselineCell& cell : row.groups) {
+      html.raw("<td>");
+      if (cell.median)
+        html.text(digits_text(*cell.median) + " (" + digits_text(*cell.low_quartile) + " to " +
+                  digits_text(*cell.high_quartile) + "), n = " + std::to_string(cell.stated.size()));
+      else
+        html.text(cell.stated.empty() ? "–" : "withheld");
+      html.raw("</td>");
+    }
+    html.raw("</tr>\n");
+  }
+  return html.raw("</tbody></table>\n");
 }
 
 }  // namespace
@@ -32,6 +58,7 @@ Html flow_section(const ValidityReport& report) {
     html.raw("<p>")
         .text(std::to_string(flow.unknown))
         .raw(" who were enrolled have been erased since; nothing is known of them any more.</p>\n");
+  html.add(baseline_table(report));
   bool any = false;
   for (const auto* outcomes : {&report.result.primary, &report.result.secondary})
     for (const assessment::study::Compared& one : *outcomes)

@@ -67,8 +67,10 @@ std::vector<Question> questions_of(const ValidityReport& report) {
                        "their arm; the measuring program does not know it."
                      : "Groups are what people are, so they know them; the measuring program does not."});
   if (!report.deviations.empty())
-    all.push_back(
-        {"Was the plan kept?", std::to_string(report.deviations.size()) + " deviations are listed in section 7."});
+    all.push_back({"Was the plan kept?",
+                   report.deviations.size() == 1
+                       ? std::string("One deviation is listed in section 7.")
+                       : std::to_string(report.deviations.size()) + " deviations are listed in section 7."});
   return all;
 }
 

@@ -46,6 +46,14 @@ Html provenance_section(const ValidityReport& report) {
   if (report.plan.frozen()) {
     if (report.plan.plan.randomised) add_fact_row(html, "Seed of the allocation, SHA-256", report.plan.seed_hash);
     add_fact_row(html, "Analysed values, SHA-256", report.data_hash);
+    add_fact_row(html, "Data locked", report.lock ? utc_text(report.lock->locked_us) : "not yet");
+    if (report.lock)
+      add_fact_row(
+          html, "Locked values, SHA-256",
+          report.lock->data_hash +
+              (report.lock->data_hash == report.data_hash
+                   ? ": those that are analysed here"
+                   : ": others than are analysed here, as when somebody has withdrawn or was erased since"));
   }
   add_fact_row(html, "Report made", utc_text(report.made_us));
   add_fact_row(html, "Program", "Seldinger " + report.program_version);

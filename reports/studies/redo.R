@@ -3,8 +3,8 @@
 #   Rscript redo.R [FOLDER]
 #
 # people.csv holds what each person has on each outcome, outcomes.csv how the plan compares them, answers.csv what was
-# answered to questionnaires, ratings.csv what raters gave, rated.csv outcomes beside mean ratings, imputed.csv what was
-# drawn for absent people, numbers.csv what the report says. Each number that comes out otherwise is printed, then how
+# answered to questionnaires, ratings.csv what raters gave, related.csv outcomes beside mean ratings and stated experience,
+# subgroups.csv who passed, baseline.csv what groups stated of themselves, imputed.csv what was drawn for absent people, numbers.csv what the report says. Each number that comes out otherwise is printed, then how
 # many were redone and the largest difference; the exit status is 1 where one differs. The p of a permutation test that
 # drew its deals and omega's interval, which is a bootstrap's, are redone with other draws, and may differ by what chance
 # makes of them.
@@ -17,15 +17,19 @@ people <- table_of("people.csv")
 outcomes <- table_of("outcomes.csv")
 answers <- table_of("answers.csv")
 ratings <- table_of("ratings.csv")
-rated <- table_of("rated.csv")
+related <- table_of("related.csv")
+subgroups <- table_of("subgroups.csv")
+baseline <- table_of("baseline.csv")
 imputed <- table_of("imputed.csv")
 numbers <- table_of("numbers.csv")
-for (name in c("value", "last_but_one", "last")) people[[name]] <- as.numeric(people[[name]])
+for (name in c("value", "last_but_one", "last", "odd", "even")) people[[name]] <- as.numeric(people[[name]])
 for (name in c("failure_value", "cut")) outcomes[[name]] <- as.numeric(outcomes[[name]])
 numbers$value <- as.numeric(numbers$value)
 answers$score <- as.numeric(answers$score)
 for (name in c("each", "replay", "rater", "score")) ratings[[name]] <- as.numeric(ratings[[name]])
-for (name in c("value", "rating")) rated[[name]] <- as.numeric(rated[[name]])
+for (name in c("value", "beside")) related[[name]] <- as.numeric(related[[name]])
+subgroups$passed <- as.numeric(subgroups$passed)
+baseline$value <- as.numeric(baseline$value)
 for (name in c("draw", "place", "value")) imputed[[name]] <- as.numeric(imputed[[name]])
 alpha <- 0.05   # of "would have been found"
 power <- 0.8
@@ -290,13 +294,31 @@ of_round <- function(own) {
                 icc_mean_low = 1 - 1 / ends[1], icc_mean_high = 1 - 1 / ends[2]))
 }
 
-# Bonett and Wright's interval (2000).
-of_rated <- function(own) {
+# Bonett and Wright's interval (2000); corrected by Spearman (1904), the outcome's halves stepped up by Spearman and Brown.
+of_related <- function(own, outcome) {
   n <- nrow(own)
-  if (n < 2) return(list(rated_people = n))
-  rho <- suppressWarnings(cor(rank(own$value), rank(own$rating)))
+  found <- list(related_people = n)
+  halves <- people[people$outcome == outcome & !is.na(people$odd), ]
+  if (nrow(halves) > 2) {
+    r <- suppressWarnings(cor(rank(halves$odd), rank(halves$even)))
+    if (!is.na(r) && r > 0) found$reliability <- 2 * r / (1 + r)
+  }
+  if (n < 2) return(found)
+  rho <- suppressWarnings(cor(rank(own$value), rank(own$beside)))
   ends <- tanh(atanh(rho) + c(-1, 1) * qnorm(0.975) * sqrt((1 + rho^2 / 2) / (n - 3)))
-  list(rated_people = n, rho = rho, rho_low = ends[1], rho_high = ends[2])
+  root <- if (is.na(own$form[1])) NA else sqrt(found$reliability * of_round(ratings[ratings$of == own$form[1], ])$icc_mean)
+  c(found, list(rho = rho, rho_low = ends[1], rho_high = ends[2]),
+    if (length(root) == 1) list(corrected = rho / root, corrected_low = ends[1] / root, corrected_high = ends[2] / root))
+}
+
+# Wilson's interval of a share, and Newcombe's of its difference from the first subgroup's (1998, method 10).
+of_subgroup <- function(own, first) {
+  n <- nrow(own); n1 <- nrow(first)
+  p <- mean(own$passed); p1 <- mean(first$passed)
+  ends <- wilson(sum(own$passed), n); ends1 <- wilson(sum(first$passed), n1)
+  list(passed = sum(own$passed), persons = n, share_low = ends[1], share_high = ends[2],
+       difference_low = p - p1 - sqrt((p - ends[1])^2 + (ends1[2] - p1)^2),
+       difference_high = p - p1 + sqrt((ends[2] - p)^2 + (p1 - ends1[1])^2))
 }
 
 # --- all of it --------------------------------------------------------------------------------------------------------
@@ -341,13 +363,22 @@ for (i in seq_len(nrow(outcomes))) {
   }
 }
 
-for (which in unique(numbers$outcome[numbers$rule %in% c("answers", "ratings", "rated")])) {
+for (which in unique(numbers$outcome[numbers$rule %in% c("answers", "ratings", "related", "subgroups", "baseline")])) {
   number <- strsplit(which, " ")[[1]]
   said <- numbers[numbers$outcome == which, ]
   redone[[paste(which, said$rule[1])]] <- switch(said$rule[1],
     answers = of_scale(answers[answers$scale == number[2], ], said$number),
-    ratings = of_round(ratings[ratings$round == number[2], ]),
-    rated = of_rated(rated[rated$outcome == number[2] & rated$form == number[4], ]))
+    ratings = of_round(ratings[ratings$of == which, ]),
+    related = of_related(related[related$outcome == number[2] & related$other == number[4], ], number[2]),
+    baseline = {
+      stated <- baseline$value[baseline$group == number[2] & baseline$fact == number[3]]
+      quarters <- unname(quantile(stated, c(0.5, 0.25, 0.75)))
+      list(stated = length(stated), median = quarters[1], low_quartile = quarters[2], high_quartile = quarters[3])
+    },
+    subgroups = {
+      here <- subgroups[subgroups$outcome == number[2] & subgroups$by == number[4], ]
+      of_subgroup(here[here$subgroup == number[6], ], here[here$subgroup == "1", ])
+    })
 }
 
 # Holm's step-down: what could not be tested counts in the family.

@@ -7,8 +7,10 @@
 
 #include "assessment/statistics/relations/proportions.h"
 #include "reports/export/csv_line.h"
-#include "reports/studies/decision_numbers.h"
-#include "reports/studies/rated_outcome.h"
+#include "reports/studies/numbers/baseline.h"
+#include "reports/studies/numbers/decision_numbers.h"
+#include "reports/studies/numbers/relations.h"
+#include "reports/studies/numbers/subgroups.h"
 #include "reports/studies/study_words.h"
 #include "sim/base/check.h"
 #include "sim/base/embedded.h"
@@ -39,7 +41,7 @@ void each_outcome(const ValidityReport& report, const Told& told) {
 std::string people_table(const ValidityReport& report) {
   CsvLine line;
   for (const char* name :
-       {"outcome", "person", "group", "standing", "value", "every_visit", "last_but_one", "last"})
+       {"outcome", "person", "group", "standing", "value", "every_visit", "last_but_one", "last", "odd", "even"})
     line.text(name);
   std::string text = line.take();
   std::map<std::string, std::uint64_t> numbers;  // of persons
@@ -53,6 +55,9 @@ std::string people_table(const ValidityReport& report) {
       const std::size_t n = person.values.size();
       line.number(n > 1 ? std::optional(person.values[n - 2]) : std::nullopt);
       line.number(n > 1 ? std::optional(person.values[n - 1]) : std::nullopt);
+      const auto halves = halves_of(person);
+      line.number(halves ? std::optional(halves->first) : std::nullopt);
+      line.number(halves ? std::optional(halves->second) : std::nullopt);
       text += line.take();
     }
   });
@@ -67,7 +72,7 @@ std::string outcomes_table(const ValidityReport& report) {
   std::string text = line.take();
   each_outcome(report, [&](std::size_t number, const study::Compared& one, bool primary) {
     const study::Outcome& outcome = one.outcome;
-    const auto mark = pass_mark_of(report, outcome);
+    const auto mark = pass_mark_of(report.marks, outcome);
     line.whole(std::uint64_t{number}).flag(primary).text(outcome.name).text(one.hand).text(outcome.metric);
     line.text(base::name_of(study::kTestNames, outcome.test)).text(outcome.first).text(outcome.second);
     line.text(outcome.better == assessment::Direction::lower_is_better ? "lower" : "higher");
@@ -97,53 +102,108 @@ std::string answers_table(const ValidityReport& report) {
   return text;
 }
 
-// Scores of each round without calibration and repeats; raters and replays by numbers in the order of their names.
+// Without calibration and repeats; raters and replays by numbers in the order of their names.
+void add_scores(std::string& text, const std::string& name, std::size_t each,
+                const std::vector<assessment::rating::Rating>& scores) {
+  CsvLine line;
+  std::map<std::string, std::uint64_t> replays, raters;
+  for (const assessment::rating::Rating& one : scores) {
+    replays[one.view] = 0;
+    raters[one.rater] = 0;
+  }
+  for (auto* numbers : {&replays, &raters}) {
+    std::uint64_t next = 0;
+    for (auto& [of, number] : *numbers) number = ++next;
+  }
+  for (const assessment::rating::Rating& one : scores) {
+    if (one.part != assessment::rating::Part::rated) continue;
+    line.text(name).whole(std::uint64_t{each}).whole(replays[one.view]);
+    line.whole(raters[one.rater]).number(one.score);
+    text += line.take();
+  }
+}
+
+// Of each round, and of each form at a case.
 std::string ratings_table(const ValidityReport& report) {
   CsvLine line;
-  for (const char* name : {"round", "each", "replay", "rater", "score"}) line.text(name);
+  for (const char* name : {"of", "each", "replay", "rater", "score"}) line.text(name);
   std::string text = line.take();
-  for (std::size_t round = 0; round < report.rated_rounds.size(); ++round) {
-    const casedb::RatedRound& of = report.rated_rounds[round];
-    std::map<std::string, std::uint64_t> replays, raters;
-    for (const assessment::rating::Rating& one : of.scores) {
-      replays[one.view] = 0;
-      raters[one.rater] = 0;
-    }
-    for (auto* numbers : {&replays, &raters}) {
-      std::uint64_t next = 0;
-      for (auto& [name, number] : *numbers) number = ++next;
-    }
-    for (const assessment::rating::Rating& one : of.scores) {
-      if (one.part != assessment::rating::Part::rated) continue;
-      line.whole(std::uint64_t{round + 1}).whole(std::uint64_t{of.each}).whole(replays[one.view]);
-      line.whole(raters[one.rater]).number(one.score);
-      text += line.take();
-    }
-  }
+  for (std::size_t i = 0; i < report.rated_rounds.size(); ++i)
+    add_scores(text, "round " + std::to_string(i + 1), report.rated_rounds[i].each, report.rated_rounds[i].scores);
+  for (std::size_t i = 0; i < report.ratings.size(); ++i)
+    add_scores(text, "form " + std::to_string(i + 1), report.ratings[i].each, report.ratings[i].scores);
   return text;
 }
 
-// Each primary outcome at whose case people were rated, form by form.
+// Each primary outcome beside what else is known of its people; `form`: empty, or as ratings.csv has it.
 template <typename Told>
-void each_rated(const ValidityReport& report, const Told& told) {
+void each_related(const ValidityReport& report, const Told& told) {
+  const std::vector<Other> experience = stated_experience(report.backgrounds);
   each_outcome(report, [&](std::size_t number, const study::Compared& one, bool primary) {
-    for (std::size_t form = 0; primary && form < report.ratings.size(); ++form)
-      if (report.ratings[form].case_id == one.outcome.case_id)
-        told(number, form + 1, with_ratings(one, report.ratings[form]));
+    if (!primary) return;
+    const Reliability of_outcome = value_reliability(one);
+    std::size_t others = 0;
+    const auto tell = [&](const Other& other, const std::string& form) {
+      told(number, ++others, form, of_outcome, related(one, other, of_outcome));
+    };
+    for (std::size_t i = 0; i < report.ratings.size(); ++i)
+      if (report.ratings[i].case_id == one.outcome.case_id)
+        tell(mean_rating(report.ratings[i]), "form " + std::to_string(i + 1));
+    for (const Other& other : experience) tell(other, {});
   });
 }
 
-std::string rated_table(const ValidityReport& report) {
+std::string related_table(const ValidityReport& report) {
   CsvLine line;
-  for (const char* name : {"outcome", "form", "value", "rating"}) line.text(name);
+  for (const char* name : {"outcome", "other", "form", "value", "beside"}) line.text(name);
   std::string text = line.take();
-  each_rated(report, [&](std::size_t number, std::size_t form, const statistics::DataTable& of) {
-    for (std::size_t row = 0; row < of.rows; ++row) {
-      line.whole(std::uint64_t{number}).whole(std::uint64_t{form});
-      line.number(of.values.front().values[row]).number(of.x[row]);
+  each_related(report, [&](std::size_t number, std::size_t other, const std::string& form, const Reliability&,
+                           const Related& found) {
+    for (std::size_t row = 0; row < found.table.rows; ++row) {
+      line.whole(std::uint64_t{number}).whole(std::uint64_t{other}).text(form);
+      line.number(found.table.values.front().values[row]).number(found.table.x[row]);
       text += line.take();
     }
   });
+  return text;
+}
+
+// Subgroups by numbers, since a site's name is what somebody wrote; withheld ones are not here.
+template <typename Told>
+void each_subgroup(const ValidityReport& report, const Told& told) {
+  each_outcome(report, [&](std::size_t number, const study::Compared& one, bool primary) {
+    const auto mark = primary ? pass_mark_of(report.marks, one.outcome) : std::nullopt;
+    if (!mark) return;
+    const std::vector<Subgroups> parted = subgroups_of(one, *mark, report.backgrounds);
+    for (std::size_t by = 0; by < parted.size(); ++by)
+      for (std::size_t i = 0; i < parted[by].groups.size(); ++i)
+        if (parted[by].groups[i].told) told(number, by + 1, i + 1, parted[by].groups[i]);
+  });
+}
+
+std::string subgroups_table(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"outcome", "by", "subgroup", "passed"}) line.text(name);
+  std::string text = line.take();
+  each_subgroup(report, [&](std::size_t number, std::size_t by, std::size_t which, const Subgroup& group) {
+    for (const bool passed : group.passed) {
+      line.whole(std::uint64_t{number}).whole(std::uint64_t{by}).whole(std::uint64_t{which}).flag(passed);
+      text += line.take();
+    }
+  });
+  return text;
+}
+
+std::string baseline_table_text(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"fact", "group", "value"}) line.text(name);
+  std::string text = line.take();
+  for (const BaselineRow& row : baseline_of(report.plan.plan, report.backgrounds))
+    for (std::size_t group = 0; group < row.groups.size(); ++group)
+      for (const double value : row.groups[group].stated) {
+        line.text(row.fact->id).whole(std::uint64_t{group + 1}).number(value);
+        text += line.take();
+      }
   return text;
 }
 
@@ -170,7 +230,7 @@ class Numbers {
     for (const char* name : {"outcome", "rule", "number", "value"}) line_.text(name);
     text_ = line_.take();
   }
-  // Of an outcome by its number, or of "scale 1", "round 1".
+  // Of an outcome by its number, or of "scale 1", "round 1", "outcome 1 other 2", "outcome 1 by 2 subgroup 3".
   void begin(std::string of, std::string_view rule) {
     of_ = std::move(of);
     rule_ = rule;
@@ -219,7 +279,7 @@ void add_decision_numbers(Numbers& numbers, const ValidityReport& report, const 
     numbers.add("agreement_sem", further(agreement, "sem"));
     numbers.add("agreement_mdc95", further(agreement, "mdc95"));
   }
-  const auto mark = pass_mark_of(report, one.outcome);
+  const auto mark = pass_mark_of(report.marks, one.outcome);
   if (!mark) return;
   for (const bool first : {true, false}) {
     const AtMark at = at_mark(one, first ? one.outcome.first : one.outcome.second, *mark);
@@ -239,7 +299,7 @@ void add_named(Numbers& numbers, const std::string& name, const statistics::Answ
   if (answer.estimate) numbers.add(name + "_", answer.ci95);
 }
 
-// Questionnaires' items, raters' scores, and outcomes beside ratings.
+// Questionnaires' items, raters' scores, outcomes beside what else is known, and who passes.
 void add_structure_numbers(Numbers& numbers, const ValidityReport& report) {
   for (std::size_t i = 0; i < report.forms.size(); ++i) {
     const FormReliability& one = report.forms[i];
@@ -255,11 +315,31 @@ void add_structure_numbers(Numbers& numbers, const ValidityReport& report) {
     add_named(numbers, "icc_one", one.one);
     add_named(numbers, "icc_mean", one.mean);
   }
-  each_rated(report, [&](std::size_t number, std::size_t form, const statistics::DataTable& of) {
-    const statistics::Answer answer = rank_correlation(of);
-    numbers.begin("outcome " + std::to_string(number) + " form " + std::to_string(form), "rated");
-    numbers.count("rated_people", answer.n);
-    add_named(numbers, "rho", answer);
+  for (const BaselineRow& row : baseline_of(report.plan.plan, report.backgrounds))
+    for (std::size_t group = 0; group < row.groups.size(); ++group) {
+      numbers.begin("group " + std::to_string(group + 1) + " " + std::string(row.fact->id), "baseline");
+      numbers.count("stated", row.groups[group].stated.size());
+      numbers.add("median", row.groups[group].median);
+      numbers.add("low_quartile", row.groups[group].low_quartile);
+      numbers.add("high_quartile", row.groups[group].high_quartile);
+    }
+  each_related(report, [&](std::size_t number, std::size_t other, const std::string&, const Reliability& of_outcome,
+                           const Related& found) {
+    numbers.begin("outcome " + std::to_string(number) + " other " + std::to_string(other), "related");
+    numbers.count("related_people", found.raw.n);
+    add_named(numbers, "rho", found.raw);
+    numbers.add("reliability", of_outcome.value);
+    numbers.add("corrected", found.corrected);
+    numbers.add("corrected_", found.corrected_ci95);
+  });
+  each_subgroup(report, [&](std::size_t number, std::size_t by, std::size_t which, const Subgroup& group) {
+    numbers.begin(
+        "outcome " + std::to_string(number) + " by " + std::to_string(by) + " subgroup " + std::to_string(which),
+        "subgroups");
+    numbers.count("passed", static_cast<std::size_t>(group.passes()));
+    numbers.count("persons", static_cast<std::size_t>(group.n()));
+    numbers.add("share_", std::optional(group.share));
+    numbers.add("difference_", group.difference);
   });
 }
 
@@ -294,7 +374,9 @@ std::vector<DataFile> report_data(const ValidityReport& report) {
           {"outcomes.csv", outcomes_table(report)},
           {"answers.csv", answers_table(report)},
           {"ratings.csv", ratings_table(report)},
-          {"rated.csv", rated_table(report)},
+          {"related.csv", related_table(report)},
+          {"subgroups.csv", subgroups_table(report)},
+          {"baseline.csv", baseline_table_text(report)},
           {"imputed.csv", imputed_table(report)},
           {"numbers.csv", numbers_table(report)},
           {"redo.R", std::string(base::content_of(embedded::study_files(), "redo.R"))}};

@@ -2,8 +2,6 @@
 
 #include "assessment/registry.h"
 #include "reports/studies/outcome_table.h"
-#include "reports/studies/rated_outcome.h"
-#include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
 #include "reports/words/metric_words.h"
 
@@ -51,45 +49,6 @@ Html response_panel(const ValidityReport& report) {
   return html.raw("</ul>\n</article>\n");
 }
 
-Html ratings_panel(const ValidityReport& report) {
-  Html rows;
-  for (const study::Compared& one : report.result.primary)
-    for (const casedb::RatedPeople& rated : report.ratings) {
-      if (rated.case_id != one.outcome.case_id) continue;
-      const auto answer = rank_correlation(with_ratings(one, rated));
-      const bool lower = one.outcome.better == assessment::Direction::lower_is_better;
-      rows.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
-      rows.raw("<span class=\"why\">")
-          .text(lower ? "lower is better: a ρ below 0 speaks for it"
-                      : "higher is better: a ρ above 0 speaks for it");
-      rows.raw("</span></th><td>").text(rated.form_title + ", version " + std::to_string(rated.version) + ", ");
-      rows.text(std::to_string(rated.ratings)).raw(" ratings</td><td>").text(std::to_string(answer.n));
-      rows.raw("</td><td>");
-      if (!answer.estimate) {
-        rows.raw("not estimated: too few, or all alike");
-      } else {
-        rows.text(number_text(*answer.estimate, 2));
-        if (answer.ci95)
-          rows.raw(" [")
-              .text(number_text(answer.ci95->low, 2) + " to " + number_text(answer.ci95->high, 2))
-              .raw("]");
-      }
-      rows.raw("</td></tr>\n");
-    }
-  constexpr std::string_view kSource = "Relations to other variables",
-                             kTitle = "What raters saw who were not told whose it was";
-  if (rows.empty()) return no_evidence_yet(kSource, kTitle, "No rated replay is of a primary outcome’s case.");
-  Html html = evidence_panel(kSource, kTitle);
-  html.raw(
-      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Form</th><th scope=\"col\">Persons</th>"
-      "<th scope=\"col\">Spearman’s ρ with the mean rating</th></tr></thead><tbody>\n");
-  return html.add(rows).raw(
-      "</tbody></table>\n<p class=\"note\">The mean rating is of all rated replays of a person at the case, "
-      "whatever "
-      "the visit. Who has failed has no value and is not among the persons. Agreement of raters limits ρ: internal "
-      "structure tells it.</p>\n</article>\n");
-}
-
 }  // namespace
 
 Html evidence_panel(std::string_view source, std::string_view title) {
@@ -125,8 +84,9 @@ Html sources_section(const ValidityReport& report) {
         .raw("</article>\n");
   }
   html.add(published_panel(report));
-  if (!report.ratings.empty()) html.add(ratings_panel(report));
+  html.add(relations_panel(report));
   html.add(consequences_panel(report));
+  html.add(subgroups_panel(report));
   return html.raw("</section>\n");
 }
 

@@ -20,16 +20,18 @@ ValidityReport validity_report_of(casedb::Library& library, const casedb::Study&
     assessment::study::add_sensitivity(report.plan.plan, data.people, report.result);
     casedb::add_analysed(report.result, data.flow);
     report.flow = std::move(data.flow);
+    report.backgrounds = std::move(data.backgrounds);
     report.ratings = casedb::rated_people(library, study.study_id);
     report.rated_rounds = casedb::rated_rounds(library, study.study_id);
     report.forms = reliability_of_study(library, study.study_id);
     for (const auto* outcomes : {&report.result.primary, &report.result.secondary})
       for (const assessment::study::Compared& one : *outcomes)
         if (const auto row = casedb::find_case(library, one.outcome.case_id)) {
-          report.rules[row->case_id] = row->rule;
-          report.cuts[row->case_id] = casedb::list_cuts(library, row->case_id);
+          report.marks.rules[row->case_id] = row->rule;
+          report.marks.cuts[row->case_id] = casedb::list_cuts(library, row->case_id);
         }
     report.data_hash = casedb::data_hash(report.result);
+    report.lock = casedb::find_lock(library, plan.study_id);
     casedb::note_look(library, plan.study_id, query, casedb::people_with_outcome(report.result));
   }
   report.looks = casedb::list_looks(library, plan.study_id);

@@ -4,16 +4,18 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "assessment/study/analysis.h"
-#include "casedb/grading/cuts.h"
 #include "casedb/people/consent.h"
 #include "casedb/ratings/rated_people.h"
+#include "casedb/studies/lock.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
-#include "reports/studies/form_reliability.h"
+#include "reports/studies/numbers/decision_numbers.h"
+#include "reports/studies/numbers/form_reliability.h"
 
 namespace seldinger::reports {
 
@@ -28,11 +30,12 @@ struct ValidityReport {
   casedb::ParticipantFlow flow;
   assessment::study::StudyResult result;
   std::string data_hash;
+  std::optional<casedb::StudyLock> lock;
   std::vector<casedb::RatedPeople> ratings;
   std::vector<casedb::RatedRound> rated_rounds;
   std::vector<FormReliability> forms;
-  std::map<std::string, assessment::PassRule> rules;     // of the plan's cases, by id
-  std::map<std::string, std::vector<casedb::Cut>> cuts;  // the same
+  CaseMarks marks;                                        // of the plan's cases
+  std::map<std::string, casedb::Background> backgrounds;  // by pseudonym
   std::vector<casedb::StudyNote> looks, deviations;
 };
 

@@ -17,6 +17,8 @@ Html structure_panels(const ValidityReport& report);  // of them: internal struc
 // Of them, too: how far repeated attempts agree, and what pass marks do.
 Html internal_structure_panel(const ValidityReport& report);
 Html consequences_panel(const ValidityReport& report);
+Html relations_panel(const ValidityReport& report);  // relations to other variables: ratings, stated experience
+Html subgroups_panel(const ValidityReport& report);  // consequences: for whom
 Html published_panel(const ValidityReport& report);  // relations to other variables: beside published effects
 Html flow_section(const ValidityReport& report);
 Html limits_section(const ValidityReport& report);      // what the data cannot say

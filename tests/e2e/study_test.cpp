@@ -164,12 +164,15 @@ TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
   EXPECT_TRUE(look["secondary"][0]["answer"]["p_value"].is_null());
 
   library_.done("study deviate Needles 'The second day was a Tuesday' --by rita");
+  EXPECT_EQ(library_.ask("study lock Needles --by rita")["lock"]["data_sha256"], look["data_sha256"]);
+  EXPECT_EQ(refusal("study lock Needles --by rita"), "data_locked");
   library_.done("report validity --study Needles --by rita --out " + at("report.html"));
   const std::string page = fixtures::whole_file(at("report.html"));
   for (const std::string& told :
        {std::string("SIMULATED"), frozen["plan_sha256"].get<std::string>(), look["data_sha256"].get<std::string>(),
-        std::string("study look"), std::string("report validity"), std::string("export before the freeze"),
-        std::string("The second day was a Tuesday"), std::string("missing")})
+        std::string("those that are analysed here"), std::string("study look"), std::string("report validity"),
+        std::string("export before the freeze"), std::string("The second day was a Tuesday"),
+        std::string("missing")})
     EXPECT_NE(page.find(told), std::string::npos) << told;
   for (const char* outside : {"http://", "https://", "<script", "src=", "novice-0"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
@@ -217,7 +220,7 @@ TEST_F(StudyCommands, RRedoesEveryNumberOfAReport) {
 // docs/studies.md, as it stands there.
 TEST_F(StudyCommands, ThePageIsWhatCanBeTyped) {
   const auto commands = fixtures::commands_of_page("studies.md");
-  ASSERT_EQ(commands.size(), 11U);
+  ASSERT_EQ(commands.size(), 12U);
   for (std::size_t i = 2; i < commands.size(); ++i) {  // the study and its researcher are there
     std::string line = fixtures::with(commands[i], " --library library", "");
     line = fixtures::with(fixtures::with(line, "CASE", case_id_), "plan.json", at("plan.json"));

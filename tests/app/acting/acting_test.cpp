@@ -239,6 +239,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"study visits", {"Needles"}, Action::enrol_in_study, own_study},
       {"study look", {"Needles"}, Action::plan_study, own_study},
       {"study deviate", {"Needles", "two came late"}, Action::plan_study, own_study},
+      {"study lock", {"Needles"}, Action::plan_study, own_study},
       {"report", {"validity", "--study", "Needles", "--out", out + ".html"}, Action::plan_study, own_study},
       {"report",
        {"validity", "--study", "Needles", "--out", out + ".html", "--data", out + "-data"},

@@ -300,7 +300,8 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
                               "study_stratum",
                               "study_enrolment",
                               "study_look",
-                              "study_deviation"})
+                              "study_deviation",
+                              "study_lock"})
       old.run(std::string("DROP TABLE ") + later);  // as schema 20 has them not yet
     old.run("PRAGMA user_version = 20");
     Transaction transaction(old);

@@ -261,6 +261,8 @@ TEST_F(RatingRoundsTest, WhoWithdrawsFromTheStudyIsRatedNoMore) {
   ASSERT_EQ(rated.size(), 1U);
   EXPECT_EQ(rated[0].case_id, case_id_);
   EXPECT_EQ(rated[0].ratings, 12U);
+  EXPECT_EQ(rated[0].scores.size(), 12U);
+  EXPECT_EQ(rated[0].each, made.each);
   std::vector<double> means;
   for (const auto& [pseudonym, mean] : rated[0].mean) means.push_back(mean);
   std::sort(means.begin(), means.end());

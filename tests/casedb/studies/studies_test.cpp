@@ -9,11 +9,13 @@
 #include "casedb/database/credentials.h"
 #include "casedb/database/digests.h"
 #include "casedb/keeping/erase.h"
+#include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
 #include "casedb/people/simulated_people.h"
+#include "casedb/studies/lock.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
 #include "casedb/studies/visits.h"
@@ -260,6 +262,41 @@ TEST_F(StudiesTest, TheAnalysisIsOfWhoTakesPartAndStillConsents) {
   EXPECT_TRUE(damaged_values(library_.database()).empty());
 }
 
+TEST_F(StudiesTest, WhatIsBegunAfterTheLockIsNotAnalysed) {
+  ASSERT_TRUE(store_plan(library_, study_id_, plan_of(study::sample_plan_json())));
+  EXPECT_EQ(code(lock_data(library_, *find_plan(library_, study_id_))), "plan_not_frozen");
+  ASSERT_TRUE(freeze_plan(library_, study_id_));
+  const StoredPlan plan = *find_plan(library_, study_id_);
+  std::vector<std::string> people;
+  for (const char* name : {"f1", "f2", "m1", "m2"}) {
+    people.push_back(somebody(name, {{"years_in_radiology", name[0] == 'f' ? "1" : "20"}}));
+    started_us_ = enrol_in_study(library_, study_id_, people.back())->enrolled_us + 1;
+    if (people.size() < 4) attempt(people.back(), 3.0);
+  }
+  const auto hash = [&] { return data_hash(study::analyse(plan.plan, study_data(library_, plan).people)); };
+  EXPECT_FALSE(find_lock(library_, study_id_));
+  const auto lock = lock_data(library_, plan);
+  ASSERT_TRUE(lock);
+  EXPECT_EQ(lock->data_hash, hash());
+  EXPECT_EQ(lock->people, 3);
+  EXPECT_EQ(code(lock_data(library_, plan)), "data_locked");
+  started_us_ = lock->locked_us + 1;
+  attempt(people[3], 8.0);
+  attempt(people[0], 8.0);
+  EXPECT_EQ(hash(), lock->data_hash);
+  const auto result = study::analyse(plan.plan, study_data(library_, plan).people);
+  EXPECT_TRUE(std::any_of(
+      result.primary[0].left_out.begin(), result.primary[0].left_out.end(),
+      [](const auto& one) { return one.why == "begun after the data were locked" && one.attempts == 2; }));
+  EXPECT_EQ(code(enrol_in_study(library_, study_id_, somebody("late", {{"years_in_radiology", "1"}}))),
+            "data_locked");
+  for (const char* change : {"UPDATE study_lock SET people = 0", "DELETE FROM study_lock"})
+    EXPECT_TRUE(refused_by_constraint([&] { library_.database().run(change); })) << change;
+  ASSERT_TRUE(withdraw_consent(library_, people[1], text_id_));
+  EXPECT_NE(hash(), lock->data_hash) << "who withdraws is gone, and the hash tells";
+  EXPECT_TRUE(damaged_values(library_.database()).empty());
+}
+
 // What is read of an attempt is what the plan asks about and what tells whether it fired: the same comes out of
 // all.
 TEST_F(StudiesTest, TheAnalysisReadsWhatDecidesIt) {
@@ -273,7 +310,8 @@ TEST_F(StudiesTest, TheAnalysisReadsWhatDecidesIt) {
   parked.operator_name = kPersonOperator;
   parked.recording = sample_recording(50);
   parked.started_us = started_us_ + 1;
-  parked.conditions.needle_hand = cases::HandKind::mouse;
+  parked.conditions.needle_hand = cases::HandKind::arm;
+  parked.conditions.needle_arm = "Inverse3";
   parked.metrics = {{"procedure_performed", version("procedure_performed"), 1.0, "bool", ""},
                     {"tip_target_surface", version("tip_target_surface"), {}, "mm", "no_endpoint"},
                     {"skin_punctures", version("skin_punctures"), 0.0, "count", ""},
@@ -286,12 +324,36 @@ TEST_F(StudiesTest, TheAnalysisReadsWhatDecidesIt) {
   const auto rows = list_attempts_of(library_, nina);
   ASSERT_EQ(rows[0].metrics.size(), 5U);
   EXPECT_EQ(people[0].attempts[0].metrics.size(), 4U) << "neither asked about nor without an endpoint";
-  EXPECT_EQ(people[0].attempts[0].hand, "mouse");
+  EXPECT_EQ(people[0].attempts[0].hand, "arm");
+  EXPECT_EQ(people[0].attempts[0].arm, "Inverse3");
+  EXPECT_EQ(people[0].attempts[1].arm, "");
   const assessment::MetricInfo& nogo = *assessment::find_metric("nogo_length");
   EXPECT_EQ(assessment::contribution_of(nogo, people[0].attempts[0].metrics).counted,
             assessment::contribution_of(nogo, rows[0].metrics).counted);
   EXPECT_EQ(assessment::contribution_of(nogo, people[0].attempts[0].metrics).counted, assessment::Counted::left_out)
       << "it was said to be deferred";
+}
+
+// What somebody states after their enrolment may come of what they did.
+TEST_F(StudiesTest, BackgroundIsWhatStoodAtTheEnrolmentAndEverySite) {
+  freeze(study::sample_plan_json());
+  const std::string nina = somebody("nina", {{"years_in_radiology", "1"}, {"logbook_total", "4"}});
+  for (const char* site : {"North", "South", ""}) {
+    const auto cohort = add_cohort(library_, std::string("Cohort ") + site, "Programme", site);
+    ASSERT_TRUE(enrol(library_, *cohort, nina, Post::learner));
+    if (std::string_view(site) == "South") {
+      EXPECT_TRUE(end_enrolment(library_, *cohort, nina).has_value());
+    }
+  }
+  ASSERT_TRUE(give_fact(library_, nina, "logbook_total", "5"));
+  const std::string pseudonym = enrol_in_study(library_, study_id_, nina)->pseudonym;
+  ASSERT_TRUE(give_fact(library_, nina, "logbook_total", "90"));
+  ASSERT_TRUE(give_fact(library_, nina, "handedness", "left"));
+  const auto backgrounds = study_data(library_, *find_plan(library_, study_id_)).backgrounds;
+  ASSERT_EQ(backgrounds.size(), 1U);
+  EXPECT_EQ(backgrounds.at(pseudonym).answers,
+            (std::map<std::string, std::string>{{"years_in_radiology", "1"}, {"logbook_total", "5"}}));
+  EXPECT_EQ(backgrounds.at(pseudonym).sites, (std::vector<std::string>{"North", "South"}));
 }
 
 // Windows in days since the enrolment; an attempt counts on the first and the last of them.

@@ -51,6 +51,30 @@ TEST(CsvLine, TextIsQuotedAndNoFormula) {
   EXPECT_EQ(CsvLine().text("=1,2").take(), "\"'=1,2\"\n");
 }
 
+TEST(CsvLine, LinesAreReadAgain) {
+  std::mt19937_64 bits(5);
+  constexpr std::string_view kLetters = "ab,\"\n=' \r";
+  std::string text;
+  std::vector<std::vector<std::string>> written;
+  for (int row = 0; row < 2'000; ++row) {
+    CsvLine line;
+    std::vector<std::string>& cells = written.emplace_back();
+    for (std::uint64_t i = bits() % 4 + 1; i > 0; --i) {
+      std::string& cell = cells.emplace_back("x");  // no formula
+      for (std::uint64_t k = bits() % 5; k > 0; --k) cell += kLetters[bits() % kLetters.size()];
+      line.text(cell);
+    }
+    text += line.take();
+  }
+  std::string_view rest = text;
+  std::vector<std::string> cells;
+  for (const auto& row : written) {
+    ASSERT_TRUE(next_csv_line(rest, cells));
+    ASSERT_EQ(cells, row);
+  }
+  EXPECT_FALSE(next_csv_line(rest, cells));
+}
+
 TEST(RawTables, DictionaryAndHeadersSayTheSame) {
   const auto dictionary = csv_table(data_dictionary());
   std::map<std::string, std::vector<std::string>> described;

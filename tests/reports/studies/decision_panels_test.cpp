@@ -51,7 +51,7 @@ TEST(Consequences, AreThoseOfTheRuleOrOfAFrozenCut) {
   ValidityReport report = report_with(0.8);
   EXPECT_THAT(consequences_panel(report).str(), HasSubstr("None yet."));
   const int version = report.result.primary.front().outcome.version;
-  report.rules["case"].criteria = {{"tip_target_dist", version, assessment::Comparison::at_most, 5.0}};
+  report.marks.rules["case"].criteria = {{"tip_target_dist", version, assessment::Comparison::at_most, 5.0}};
   const std::string by_rule = consequences_panel(report).str();
   EXPECT_THAT(by_rule, HasSubstr("at most 5 mm <span class=\"why\">the case’s rule"));
   EXPECT_THAT(by_rule, HasSubstr(" of 11 ")) << "who failed is not at the mark, and counts";
@@ -63,9 +63,9 @@ TEST(Consequences, AreThoseOfTheRuleOrOfAFrozenCut) {
   cut.higher_is_better = false;
   cut.value = 1000.0;
   cut.words = "contrasting";
-  report.cuts["case"] = {cut};
+  report.marks.cuts["case"] = {cut};
   EXPECT_THAT(consequences_panel(report).str(), HasSubstr("the case’s rule")) << "nobody has frozen it";
-  report.cuts["case"].front().frozen_us = 1;
+  report.marks.cuts["case"].front().frozen_us = 1;
   const std::string by_cut = consequences_panel(report).str();
   EXPECT_THAT(by_cut, HasSubstr("the frozen cut (contrasting)"));
   EXPECT_THAT(by_cut, HasSubstr("novices: 10 of 11"));
@@ -75,7 +75,7 @@ TEST(Consequences, AreThoseOfTheRuleOrOfAFrozenCut) {
 TEST(Consequences, SayThatReliabilityIsNotKnown) {
   ValidityReport report = report_with(0.8, 1);
   const int version = report.result.primary.front().outcome.version;
-  report.rules["case"].criteria = {{"tip_target_dist", version, assessment::Comparison::at_most, 5.0}};
+  report.marks.rules["case"].criteria = {{"tip_target_dist", version, assessment::Comparison::at_most, 5.0}};
   EXPECT_THAT(consequences_panel(report).str(), HasSubstr("the reliability is not known"));
 }
 

@@ -1,5 +1,5 @@
 // Reliability of a study's questionnaires in its report: by round, version and scale, of who answered every item.
-#include "reports/studies/form_reliability.h"
+#include "reports/studies/numbers/form_reliability.h"
 
 #include <gmock/gmock.h>
 

@@ -60,7 +60,7 @@ void add_structure(ValidityReport& report, std::uint64_t seed) {
   report.forms = reliability_of(responses);
   casedb::RatedRound round;
   round.each = 2;
-  casedb::RatedPeople people{"osats-grs", "Global", 2, "case-1", 0, {}};
+  casedb::RatedPeople people{"osats-grs", "Global", 2, "case-1", 0, {}, {}, 2};
   for (const study::PersonValue& one : report.result.primary[0].people) {
     const double own = 3.0 + rng.normal();
     for (std::size_t k = 0; k < 2; ++k)
@@ -71,8 +71,16 @@ void add_structure(ValidityReport& report, std::uint64_t seed) {
   round.scores.push_back({"rater 0", "known", assessment::rating::Part::calibration, 0, 5.0, 4.0});
   round.scores.push_back({"rater 1", "alone", assessment::rating::Part::rated, 0, 1.0});
   round.agreement = assessment::rating::agreement_of(round.scores, round.each);
+  people.scores = round.scores;
   report.rated_rounds.push_back(std::move(round));
   report.ratings.push_back(std::move(people));
+  for (const study::PersonValue& one : report.result.primary[0].people) {
+    casedb::Background& background = report.backgrounds[one.name];
+    background.group = one.group;
+    background.answers["logbook_total"] = std::to_string(static_cast<int>(20.0 * rng.uniform()));
+    background.answers["handedness"] = rng.uniform() < 0.3 ? "left" : "right";
+    if (rng.uniform() < 0.8) background.sites = {rng.uniform() < 0.5 ? "=North" : "South"};
+  }
 }
 
 ValidityReport random_report(std::uint64_t seed, const char* test, std::size_t most) {
@@ -104,7 +112,7 @@ ValidityReport random_report(std::uint64_t seed, const char* test, std::size_t m
   report.result = study::analyse(plan, people);
   study::add_sensitivity(plan, people, report.result);
   const assessment::MetricInfo* info = assessment::find_metric("tip_target_dist");
-  report.rules["case-1"].criteria = {{info->id, info->version, assessment::Comparison::at_most, 6.0}};
+  report.marks.rules["case-1"].criteria = {{info->id, info->version, assessment::Comparison::at_most, 6.0}};
   return report;
 }
 
@@ -137,10 +145,12 @@ TEST(ReportData, HoldsStructureAndWhatWasDrawn) {
   for (std::uint64_t seed = 1; seed <= 8 && numbers.find(",imputed,") == std::string::npos; ++seed) {
     ValidityReport report = random_report(seed, "welch", 40);
     add_structure(report, seed);
-    numbers = report_data(report).at(6).content;
+    numbers = report_data(report).at(8).content;
   }
   for (const char* one : {"scale 1,answers,alpha,", "scale 1,answers,omega_low,", "round 1,ratings,icc_mean_high,",
-                          "outcome 1 form 1,rated,rho_high,", "1,imputed,estimate,"})
+                          "outcome 1 other 1,related,rho_high,", "outcome 1 other 1,related,corrected_high,",
+                          "outcome 1 other 2,related,rho,", "outcome 1 by 1 subgroup 2,subgroups,difference_low,",
+                          "group 2 logbook_total,baseline,high_quartile,", "1,imputed,estimate,"})
     EXPECT_THAT(numbers, HasSubstr(one));
 }
 
@@ -148,7 +158,7 @@ TEST(ReportData, HoldsStructureAndWhatWasDrawn) {
 TEST(ReportData, ANumberThatIsOffIsTold) {
   SELDINGER_NEEDS_R();
   auto files = report_data(random_report(1, "welch", 20));
-  std::string& numbers = files[6].content;
+  std::string& numbers = files[8].content;
   const std::size_t at = numbers.find("1,plan,estimate,") + 16;
   const std::size_t end = numbers.find('\n', at);
   numbers.replace(at, end - at, std::to_string(std::stod(numbers.substr(at, end - at)) + 0.001));
@@ -156,6 +166,17 @@ TEST(ReportData, ANumberThatIsOffIsTold) {
   EXPECT_EQ(ran.exit_code, 1) << ran.out << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("differs: outcome 1 plan estimate"));
   EXPECT_THAT(ran.out, HasSubstr(" 1 differ"));
+}
+
+// The page with every panel: kept in the test's folder, to be looked at.
+TEST(ReportData, ThePageOfAllPanelsTellsNumbersOrWhyNot) {
+  ValidityReport report = random_report(3, "welch", 40);
+  add_structure(report, 3);
+  const std::string page = validity_page(report);
+  std::ofstream(fixtures::fresh_folder("validity_page") / "validity.html") << page;
+  for (const char* panel : {"Mean rating: Global, version 2", "Writing hand: left", "Site: ", "median (quartiles)"})
+    EXPECT_THAT(page, HasSubstr(panel));
+  for (const char* none : {">nan", " nan", "NaN", ">inf", " inf ", "-inf"}) EXPECT_THAT(page, Not(HasSubstr(none)));
 }
 
 TEST(ReportData, NamesNobody) {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "assessment/grading/rule.h"
 #include "assessment/statistics/answer.h"
-#include "reports/studies/validity_report.h"
+#include "assessment/study/analysis.h"
+#include "casedb/grading/cuts.h"
 
 namespace seldinger::reports {
 
@@ -19,9 +23,15 @@ struct PassMark {
   bool higher_is_better = true;
   std::string words;
 };
-std::optional<PassMark> pass_mark_of(const ValidityReport& report, const assessment::study::Outcome& outcome);
+// By case id.
+struct CaseMarks {
+  std::map<std::string, assessment::PassRule> rules;
+  std::map<std::string, std::vector<casedb::Cut>> cuts;
+};
+std::optional<PassMark> pass_mark_of(const CaseMarks& marks, const assessment::study::Outcome& outcome);
 
-// Of a group how many are at the mark; who failed is not.
+bool is_at_mark(const assessment::study::PersonValue& person, const PassMark& mark);  // who failed is not
+// Of a group how many are.
 struct AtMark {
   std::int64_t passed = 0, n = 0;
 };

@@ -1,4 +1,4 @@
-#include "reports/studies/decision_numbers.h"
+#include "reports/studies/numbers/decision_numbers.h"
 
 #include "assessment/statistics/complete_table.h"
 #include "assessment/statistics/reliability/icc.h"
@@ -26,13 +26,13 @@ statistics::Answer agreement_of(const study::Compared& one) {
   return statistics::icc(statistics::complete_table(table), kIcc2);
 }
 
-std::optional<PassMark> pass_mark_of(const ValidityReport& report, const study::Outcome& outcome) {
-  if (const auto cuts = report.cuts.find(outcome.case_id); cuts != report.cuts.end())
+std::optional<PassMark> pass_mark_of(const CaseMarks& marks, const study::Outcome& outcome) {
+  if (const auto cuts = marks.cuts.find(outcome.case_id); cuts != marks.cuts.end())
     if (const casedb::Cut* cut = casedb::cut_in_force(cuts->second, outcome.metric);
         cut != nullptr && cut->version == outcome.version)
       return PassMark{cut->value, cut->higher_is_better, "the frozen cut (" + cut->words + ")"};
-  const auto rule = report.rules.find(outcome.case_id);
-  if (rule == report.rules.end()) return std::nullopt;
+  const auto rule = marks.rules.find(outcome.case_id);
+  if (rule == marks.rules.end()) return std::nullopt;
   for (const assessment::Criterion& one : rule->second.criteria)
     if (one.metric == outcome.metric && one.version == outcome.version &&
         one.comparison != assessment::Comparison::equal)
@@ -40,13 +40,17 @@ std::optional<PassMark> pass_mark_of(const ValidityReport& report, const study::
   return std::nullopt;
 }
 
+bool is_at_mark(const study::PersonValue& person, const PassMark& mark) {
+  return person.standing == study::Standing::value &&
+         (mark.higher_is_better ? person.value >= mark.cut : person.value <= mark.cut);
+}
+
 AtMark at_mark(const study::Compared& one, const std::string& group, const PassMark& mark) {
   AtMark found;
   for (const study::PersonValue& person : one.people) {
     if (person.group != group || person.standing == study::Standing::absent) continue;
     ++found.n;
-    const bool at = mark.higher_is_better ? person.value >= mark.cut : person.value <= mark.cut;
-    found.passed += person.standing == study::Standing::value && at ? 1 : 0;
+    found.passed += is_at_mark(person, mark) ? 1 : 0;
   }
   return found;
 }

@@ -1,4 +1,4 @@
-#include "reports/studies/form_reliability.h"
+#include "reports/studies/numbers/form_reliability.h"
 
 #include <algorithm>
 #include <cmath>
