@@ -57,13 +57,13 @@ std::string stratum_of(const StoredPlan& stored, const Answers& answers) {
 base::Result<void> may_take_part(Library& library, const StoredPlan& stored, const std::string& person_id) {
   if (!stored.frozen())
     return base::Error{"plan_not_frozen", "people are enrolled when the plan is frozen (`seldinger study freeze`)"};
-  if (find_lock(library, stored.study_id))
-    return base::Error{"data_locked", "the study's data are locked: nobody is enrolled any more"};
   if (const auto known = check_person(library, person_id); !known) return known.error();
   if (!consenting_people(library, stored.study_id).contains(person_id))
     return base::Error{"no_consent", "the person's consent to this study does not stand"};
   for (const StudyEnrolment& one : list_study_enrolments(library, stored.study_id))
     if (one.person_id == person_id) return base::Error{"already_enrolled", "the person takes part already"};
+  if (find_lock(library, stored.study_id))
+    return base::Error{"data_locked", "the study's data are locked: nobody is enrolled any more"};
   return {};
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "casedb/database/disk.h"
 #include "casedb/database/sqlite.h"
 #include "reports/export/csv_line.h"
 #include "reports/export/raw_tables.h"
@@ -51,14 +51,25 @@ Number number_in(const std::string& cell) {
   return value;
 }
 
+// A line, and what follows it while a quote is open.
+bool next_record(std::istream& stream, std::string& record) {
+  record.clear();
+  std::string line;
+  while (std::getline(stream, line)) {
+    record += line + '\n';
+    if (std::count(record.begin(), record.end(), '"') % 2 == 0) return true;
+  }
+  return false;
+}
+
 void fill(casedb::Statement& into, const std::vector<ColumnInfo>& columns, const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  std::string_view rest = text;
+  std::string line;
   std::vector<std::string> cells;
-  CHECK(next_csv_line(rest, cells));  // the header
-  while (next_csv_line(rest, cells)) {
-    CHECK(cells.size() == columns.size());
+  CHECK(next_record(stream, line));  // the header
+  while (next_record(stream, line)) {
+    std::string_view rest = line;
+    CHECK(next_csv_line(rest, cells) && cells.size() == columns.size());
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::string name = "c" + std::to_string(i);
       if (cells[i].empty())
@@ -96,7 +107,9 @@ void write_table(casedb::Sqlite& database, const fs::path& folder, const TableIn
 }  // namespace
 
 void write_sqlite_tables(const fs::path& folder) {
-  casedb::Sqlite database(folder / "export.sqlite", casedb::Sqlite::Mode::create);
+  const fs::path file = folder / "export.sqlite";
+  casedb::NewFile(file).keep_unsynced();  // its owner's alone, as every file of an export
+  casedb::Sqlite database(file);
   database.run("BEGIN");
   for (const TableInfo& table : raw_tables()) write_table(database, folder, table);
   write_table(database, folder, dictionary_table());

@@ -122,6 +122,8 @@ TEST_F(ExportFormats, TheSqliteFileHoldsTheTablesAndNobody) {
   for (const auto& entry : fs::recursive_directory_iterator(at("all"))) {
     if (!entry.is_regular_file()) continue;
     ++scanned;
+    EXPECT_EQ(entry.status().permissions() & (fs::perms::group_all | fs::perms::others_all), fs::perms::none)
+        << entry.path() << ": its owner's alone";
     EXPECT_EQ(planted_in(fs::relative(entry.path(), at("all")).string()), 0) << entry.path();
     if (entry.path().extension() == ".sqlite") continue;
     EXPECT_EQ(planted_in(fixtures::whole_file(entry.path())), 0) << entry.path();

@@ -284,6 +284,7 @@ TEST_F(StudiesTest, WhatIsBegunAfterTheLockIsNotAnalysed) {
   attempt(people[3], 8.0);
   attempt(people[0], 8.0);
   EXPECT_EQ(hash(), lock->data_hash);
+  EXPECT_EQ(code(enrol_in_study(library_, study_id_, people[0])), "already_enrolled");
   const auto result = study::analyse(plan.plan, study_data(library_, plan).people);
   EXPECT_TRUE(std::any_of(
       result.primary[0].left_out.begin(), result.primary[0].left_out.end(),
