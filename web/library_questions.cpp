@@ -364,6 +364,16 @@ class LibraryQuestions final : public Questions {
     return casedb::Grader(pages_.library).look_at(row);
   }
 
+  std::vector<casedb::StationUse> list_station_use(const std::vector<std::string>& people) override {
+    const std::lock_guard lock(recordings_.mutex);  // of many attempts: no page waits
+    return casedb::list_station_use(recordings_.library, people);
+  }
+
+  std::vector<casedb::StationTiming> list_station_timing() override {
+    const std::lock_guard lock(recordings_.mutex);
+    return casedb::list_station_timing(recordings_.library);
+  }
+
   std::vector<casedb::AttemptComment> list_comments(const std::string& attempt_id) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::list_comments(pages_.library, attempt_id);

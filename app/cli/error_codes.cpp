@@ -238,6 +238,9 @@ constexpr ErrorCode kStudyCodes[] = {
      "Freeze the plan; `seldinger study look` tells counts of all together."}};
 
 constexpr ErrorCode kAttemptCodes[] = {
+    {"bad_station", kRefuses,
+     "A station's name has 1 to 40 letters, digits, spaces and - _ . and begins and ends with a letter or digit.",
+     "Give another name with `train --station-name` or SELDINGER_STATION."},
     {"attempt_runs", kRefuses, "Somebody is at this attempt right now.", "Wait until it has ended."},
     {"not_simulated", kRefuses, "A person made this attempt, not a simulated operator.",
      "Go on with it in `seldinger train`."},

@@ -58,6 +58,7 @@ enum class Action {
   // People.
   see_cohort,             // who is in it, by name
   see_cohort_cells,       // how many are in it and what they did together, from kSmallestCell people upwards
+  see_station_use,        // what was done at which workstation
   manage_cohorts,         // makes them, says who belongs to them
   appoint_director,       // of a programme
   manage_studies,         // what they ask, who works on them
@@ -74,7 +75,8 @@ enum class Action {
   manage_accounts,  // add, close, open; role, level
   set_password,
   // The library.
-  keep_library,  // back up, repair, score again
+  keep_library,        // back up, repair, score again
+  see_station_timing,  // how well each workstation keeps time
   read_audit,
 };
 
@@ -318,6 +320,10 @@ inline constexpr Permission kPermissions[] = {
      "see_cohort_cells",
      "a director sees counts of other programmes, of at least five people",
      {{{Role::director}}}},
+    {Action::see_station_use,
+     "see_station_use",
+     "a director sees what the own programmes did at which station",
+     {{{Role::director}, {}, Whose::own_programmes}}},
     {Action::manage_cohorts,
      "manage_cohorts",
      "an admin says who belongs to a cohort, a director within the own programmes",
@@ -370,6 +376,10 @@ inline constexpr Permission kPermissions[] = {
      {{{Role::admin}}, {kEveryRole, {}, Whose::own}}},
 
     {Action::keep_library, "keep_library", "an admin backs the library up and repairs it", {{{Role::admin}}}},
+    {Action::see_station_timing,
+     "see_station_timing",
+     "an admin sees how well each station keeps time",
+     {{{Role::admin}}}},
     {Action::read_audit, "read_audit", "an admin reads the audit log", {{{Role::admin}}}},
 };
 

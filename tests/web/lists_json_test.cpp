@@ -14,8 +14,9 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kPages[] = {"/attempts", "/cases", "/curricula", "/progress", "/cohorts",
-                                  "/studies",  "/me",    "/accounts",  "/log-ins",  "/audit"};
+constexpr const char* kPages[] = {"/attempts", "/cases",   "/curricula", "/progress",
+                                  "/cohorts",  "/studies", "/me",        "/accounts",
+                                  "/log-ins",  "/audit",   "/stations",  "/stations/timing"};
 
 // Cohorts, learners, a study, consents and the log, so that each page has something to tell.
 void fill_lists(FakeSite& fake) {

@@ -10,6 +10,7 @@
 
 #include "casedb/attempts/attempts.h"
 #include "casedb/attempts/comments.h"
+#include "casedb/attempts/stations.h"
 #include "casedb/cases/case_checks.h"
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
@@ -146,6 +147,9 @@ class Questions {
   virtual std::string case_mark(const std::string& case_id) = 0;
   // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.
   virtual base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) = 0;
+  // Which stations those people used for what; how well all of them keep time. Both may take a tenth of a second.
+  virtual std::vector<casedb::StationUse> list_station_use(const std::vector<std::string>& people) = 0;
+  virtual std::vector<casedb::StationTiming> list_station_timing() = 0;
   virtual std::vector<casedb::AttemptComment> list_comments(const std::string& attempt_id) = 0;
   virtual base::Result<void> add_comment(const std::string& person_id, const std::string& attempt_id, double at_s,
                                          const std::string& body) = 0;

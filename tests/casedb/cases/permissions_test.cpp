@@ -60,6 +60,7 @@ constexpr Row kMatrix[] = {
     {"freeze_cut",                "",          "",                    "",                 "others'",   ""},
     {"see_cohort",                "",          "cohort",              "",                 "programme", ""},
     {"see_cohort_cells",          "",          "",                    "",                 "all",       ""},
+    {"see_station_use",           "",          "",                    "",                 "programme", ""},
     {"manage_cohorts",            "",          "",                    "",                 "programme", "all"},
     {"appoint_director",          "",          "",                    "",                 "",          "all"},
     {"manage_studies",            "",          "",                    "",                 "all",       "all"},
@@ -76,6 +77,7 @@ constexpr Row kMatrix[] = {
     {"manage_accounts",           "",          "",                    "",                 "",          "all"},
     {"set_password",              "own",       "own",                 "own",              "own",       "all"},
     {"keep_library",              "",          "",                    "",                 "",          "all"},
+    {"see_station_timing",        "",          "",                    "",                 "",          "all"},
     {"read_audit",                "",          "",                    "",                 "",          "all"},
 };
 // clang-format on
