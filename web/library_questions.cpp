@@ -17,7 +17,6 @@
 #include "casedb/grading/learning.h"
 #include "casedb/people/noted_tries.h"
 #include "casedb/people/simulated_people.h"
-#include "reports/studies/validity_report.h"
 #include "reports/words/grade_words.h"
 #include "sim/base/failure.h"
 #include "sim/base/hex.h"
@@ -229,19 +228,6 @@ class LibraryQuestions final : public Questions {
       view.blinded = casedb::blinded_counts(library, *view.plan);
     }
     return view;
-  }
-
-  base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
-                                         const std::string& program_version) override {
-    auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
-    if (!library) return library.error();
-    library->act_for(casedb::Actor::person(person_id));
-    const auto study = casedb::find_study(*library, study_id);
-    if (!study) return study.error();
-    const auto plan = casedb::find_plan(*library, study_id);
-    if (!plan) return plan.error();
-    return reports::validity_page(
-        reports::validity_report_of(*library, *study, *plan, "report validity", program_version));
   }
 
   reports::AuditView audit_of(int days) override {
@@ -534,6 +520,8 @@ base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, H
 
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,
                                  std::function<void(const std::string&)> log, HeavyWork work) {
+  const std::filesystem::path jobs_folder = library.folder() / casedb::kJobsFolder;
+  JobRunner jobs = std::move(work.jobs);
   auto questions = questions_of(std::move(library), std::move(work));
   if (!questions.has_value()) return questions.error();
   Surroundings surroundings;
@@ -552,6 +540,7 @@ base::Result<Server> open_server(casedb::Library library, const ServeOptions& op
   };
   surroundings.log = std::move(log);
   surroundings.program_version = std::move(program_version);
+  if (jobs) surroundings.jobs = std::make_shared<Jobs>(jobs_folder, std::move(jobs), surroundings.utc_us);
   return Server::open(std::move(*questions), std::move(surroundings), options);
 }
 

@@ -67,6 +67,7 @@ enum class Action {
   enrol_in_study,         // people who consent to it
   manage_questionnaires,  // stores them, opens rounds in which they are answered
   see_responses,   // of a round: by respondent and group. "own": opened by oneself; of a study: its researchers'
+  run_job,         // long work that a page asks for: only one's own is seen
   answer_consent,  // give and withdraw, and state facts of oneself
   let_in_again,    // somebody whose log-in is delayed
   erase_attempts,
@@ -355,6 +356,10 @@ inline constexpr Permission kPermissions[] = {
      "study",
      {{{Role::mentor, Role::researcher, Role::director}, {}, Whose::own},
       {{Role::researcher}, {}, Whose::own_studies}}},
+    {Action::run_job,
+     "run_job",
+     "a mentor, researcher or admin sees their own jobs",
+     {{{Role::mentor, Role::researcher, Role::admin}, {}, Whose::own}}},
     {Action::answer_consent, "answer_consent", "everybody answers for themselves", {{kEveryRole, {}, Whose::own}}},
     {Action::let_in_again,
      "let_in_again",

@@ -32,6 +32,7 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
       html.raw(
           " <a href=\"/stations/timing\">Stations</a> <a href=\"/accounts\">Accounts</a> <a "
           "href=\"/log-ins\">Log-ins</a> <a href=\"/audit\">Audit</a>");
+    if (visitor.role != "trainee" && visitor.role != "director") html.raw(" <a href=\"/jobs\">Jobs</a>");
     html.raw(" <a href=\"/me\">About you</a>");
     html.raw(" <a href=\"/metrics\">Metrics</a>");
     html.raw("</nav>\n<div class=\"who\"><span>")

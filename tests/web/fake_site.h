@@ -122,11 +122,6 @@ class FakeQuestions final : public Questions {
       if (one.study.study_id == study_id) return one;
     return base::Error{"no_study", "there is no such study"};
   }
-  base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
-                                         const std::string&) override {
-    done.push_back(person_id + " looks at " + study_id);
-    return std::string("<!doctype html>");
-  }
   reports::AuditView audit_of(int days) override {
     reports::AuditView view = audit;
     view.days = days;

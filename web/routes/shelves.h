@@ -19,6 +19,7 @@ std::span<const Route> account_routes();
 std::span<const Route> study_routes();
 std::span<const Route> me_routes();
 std::span<const Route> station_routes();
+std::span<const Route> job_routes();
 std::span<const Route> server_routes();
 
 }  // namespace seldinger::web

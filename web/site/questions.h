@@ -97,9 +97,6 @@ class Questions {
   virtual std::vector<reports::StudyView> list_studies() = 0;
   virtual casedb::Relation relation_to_study(const std::string& reader_id, const std::string& study_id) = 0;
   virtual base::Result<reports::StudyView> find_study(const std::string& study_id) = 0;  // `no_study`
-  // As reports::validity_report_of, in that person's name: `no_study`, `no_plan`.
-  virtual base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
-                                                 const std::string& program_version) = 0;
 
   // The last `days` of the audit log, newest first and 500 at most, and whether the whole log stands. Takes
   // milliseconds for each thousand rows of it.

@@ -69,6 +69,7 @@ constexpr Row kMatrix[] = {
     {"enrol_in_study",            "",          "",                    "study",            "all",       "all"},
     {"manage_questionnaires",     "",          "all",                 "all",              "all",       "all"},
     {"see_responses",             "",          "own",                 "own|study",        "own",       ""},
+    {"run_job",                   "",          "own",                 "own",              "",          "own"},
     {"answer_consent",            "own",       "own",                 "own",              "own",       "own"},
     {"let_in_again",              "",          "",                    "",                 "",          "all"},
     {"erase_attempts",            "own",       "own",                 "own",              "own",       "all"},
