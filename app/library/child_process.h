@@ -16,7 +16,7 @@ struct ChildEnd {
 
 // `doing` gets each line of progress (app/cli/progress.h). Asked to stop, it is told to end (SIGTERM), 3 s later
 // ended; it never outlives the thread that called this. It has a lower priority than we have, none of our files but
-// its three, and writes no file of more than 8 GiB. Throws base::Failure("job_not_started").
+// its three, and writes no file of more than 8 GiB. Throws base::Failure("no_reader").
 ChildEnd run_this_program(const std::vector<std::string>& words, const std::function<void(std::string_view)>& doing,
                           const std::stop_token& stop);
 

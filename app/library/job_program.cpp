@@ -38,7 +38,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 std::string without_places(std::string text, const web::Job& job, const fs::path& folder, const fs::path& library) {
   for (const fs::path& place : {source_of(job, folder), folder / "files", folder / "results", folder, library})
     text = replaced(std::move(text), place.string(), "…");
-  return text;
+  return replaced(std::move(text), "SOURCE \"…\": ", "");
 }
 
 // What it said of why not: from the first "error: " on, without that word and the code.

@@ -44,7 +44,7 @@ base::Result<void> check_station_name(const std::string& name) {
       });
   if (fits) return {};
   return base::Error{
-      "bad_station",
+      "bad_station_name",
       "a station's name has 1 to 40 letters, digits, spaces and - _ . and begins and ends with a letter or digit"};
 }
 

@@ -17,7 +17,7 @@ namespace seldinger::casedb {
 // What a station is called that nobody named. Never the machine's name in its network, which could tell whose it
 // is.
 inline constexpr const char* kUnnamedStation = "this computer";
-// Refused (`bad_station`): not 1 to 40 letters, digits, spaces and - _ . with a letter or digit at both ends.
+// Refused (`bad_station_name`): not 1 to 40 letters, digits, spaces and - _ . with a letter or digit at both ends.
 base::Result<void> check_station_name(const std::string& name);
 
 struct StationResult {

@@ -117,7 +117,7 @@ TEST_F(JobsTest, FilesComeInPiecesInOrder) {
     const auto taken = jobs->receive(kAnn, id, number, ending, at, bytes(text));
     return taken ? "" : taken.error().code;
   };
-  EXPECT_EQ(jobs->all_sent(kAnn, id).error().code, "not_receiving") << "nothing came yet";
+  EXPECT_EQ(jobs->all_sent(kAnn, id).error().code, "bad_piece") << "nothing came yet";
   EXPECT_EQ(send(1, "dcm", 0, "x"), "bad_piece");
   EXPECT_EQ(send(0, "dcm", 5, "x"), "bad_piece");
   for (const char* ending : {"../../x", "nhdr", "", "dcm/x", "DCM"})
@@ -131,7 +131,7 @@ TEST_F(JobsTest, FilesComeInPiecesInOrder) {
   ASSERT_TRUE(jobs->all_sent(kAnn, id));
   ASSERT_TRUE(reaches(*jobs, kAnn, id, JobState::done));
   EXPECT_EQ(led_.files, "abcdef;123;");
-  EXPECT_EQ(send(1, "nii.gz", 3, "x"), "not_receiving");
+  EXPECT_EQ(send(1, "nii.gz", 3, "x"), "bad_piece");
   EXPECT_FALSE(fs::exists(folder_ / kAnn / id / "files")) << "what was sent is gone when it has ended";
 }
 
@@ -164,7 +164,16 @@ TEST_F(JobsTest, AServerThatStartsAgainSaysWhatWasInterrupted) {
     waiting = jobs->ask(kAnn, JobKind::study_report, {}).value();
     receiving = jobs->ask(kBob, JobKind::import_ct, {}).value();
     ASSERT_TRUE(jobs->receive(kBob, receiving, 0, "dcm", 0, bytes("abc")));
+    // As a server that is killed leaves it.
+    fs::copy(folder_, folder_.string() + "-killed", fs::copy_options::recursive);
   }
+  const fs::path left = folder_.string() + "-killed";
+  std::ofstream(left / kAnn / running / "session") << "a secret";
+  Jobs killed(left, led_.runner(), [this] { return now_us_.load(); });
+  EXPECT_EQ(killed.find(kAnn, running)->state, JobState::interrupted);
+  EXPECT_FALSE(fs::exists(left / kAnn / running / "session"));
+  EXPECT_FALSE(fs::exists(left / kAnn / running / "results"));
+  EXPECT_TRUE(fs::exists(left / kAnn / done / "results" / "answer.csv"));
   led_.let_end(true);
   const std::size_t ran = led_.ran.size();
   const auto jobs = open();

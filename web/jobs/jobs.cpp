@@ -116,14 +116,17 @@ Job* Jobs::own(const std::string& person_id, const std::string& job_id) {
   return found == jobs_.end() || found->second.person_id != person_id ? nullptr : &found->second;
 }
 
-// What was sent goes at once: a CT from outside lies here no longer than it is needed.
+// What was sent goes at once, and what a runner that was killed left: a CT from outside lies here no longer than it
+// is needed.
 void Jobs::end(Job& job, JobState state, std::string said) {
   std::error_code none;
-  fs::remove_all(folder_of(job) / kFiles, none);
-  if (state == JobState::done)
-    job.results = files_in(folder_of(job) / kResults);
-  else
-    fs::remove_all(folder_of(job) / kResults, none);
+  std::vector<fs::path> gone;
+  for (const auto& entry : fs::directory_iterator(folder_of(job), none)) {
+    const fs::path name = entry.path().filename();
+    if (name != kKept && !(name == kResults && state == JobState::done)) gone.push_back(entry.path());
+  }
+  for (const fs::path& one : gone) fs::remove_all(one, none);
+  if (state == JobState::done) job.results = files_in(folder_of(job) / kResults);
   job.state = state;
   job.said = shortened(std::move(said));
   job.doing.clear();
@@ -196,7 +199,7 @@ base::Result<void> Jobs::receive(const std::string& person_id, const std::string
   const std::lock_guard lock(mutex_);
   Job* job = own(person_id, job_id);
   if (job == nullptr) return no_job();
-  if (job->state != JobState::receiving) return base::Error{"not_receiving", "the job takes no files any more"};
+  if (job->state != JobState::receiving) return base::Error{"bad_piece", "the job takes no files any more"};
   const bool is_next = number == job->files.size() && at == 0;
   const bool goes_on = number + 1 == job->files.size() && at == job->files.back().bytes;
   const bool known = std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
@@ -227,7 +230,7 @@ base::Result<void> Jobs::all_sent(const std::string& person_id, const std::strin
   Job* job = own(person_id, job_id);
   if (job == nullptr) return no_job();
   if (job->state != JobState::receiving || job->files.empty())
-    return base::Error{"not_receiving", "no file of the job has been sent"};
+    return base::Error{"bad_piece", "no file of the job has been sent"};
   job->state = JobState::waiting;
   heard_us_.erase(job_id);
   keep(*job);

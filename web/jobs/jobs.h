@@ -50,7 +50,7 @@ class Jobs {
   std::optional<Job> find(const std::string& person_id, const std::string& job_id);
 
   // More of the file of that number, which begins with the next number and is called `number`.`ending`. Refused:
-  // `no_job`, `not_receiving`, `bad_piece` (not the next one, or of a name that is none), `too_large`, `disk`.
+  // `no_job`, `bad_piece` (not the next one, or of a name that is none), `too_large`, `disk`.
   base::Result<void> receive(const std::string& person_id, const std::string& job_id, std::size_t number,
                              const std::string& ending, std::uint64_t at, std::span<const std::byte> piece);
   base::Result<void> all_sent(const std::string& person_id, const std::string& job_id);

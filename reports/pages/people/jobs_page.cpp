@@ -146,7 +146,7 @@ std::string job_page(const Visitor& visitor, const JobView& job) {
       .raw("</strong> <span data-doing>");
   html.text(job.doing).raw("</span></p>\n");
   if (!job.ended()) {
-    const double share = share_done(job.doing);
+    const double share = job.state == "receiving" ? 0.0 : share_done(job.doing);
     html.raw("<progress aria-label=\"How far it is\" max=\"1\"");
     if (share >= 0.0) html.raw(" value=\"").text(number_text(share, 3)).raw("\"");
     html.raw("></progress>\n");
@@ -159,7 +159,7 @@ std::string job_page(const Visitor& visitor, const JobView& job) {
   html.raw("<form method=\"post\" action=\"/jobs/").text(job.job_id).raw("/cancel\">\n");
   add_form_token(html, visitor);
   html.raw("<p><button class=\"quiet\">");
-  html.text(job.ended() ? "Remove it, and what came of it" : "Cancel");
+  html.text(!job.ended() ? "Cancel" : job.results.empty() ? "Remove it from the list" : "Remove it and its files");
   html.raw("</button></p>\n</form>\n</div>\n<script src=\"/jobs.js\" defer></script>\n");
   return page(job_kind_text(job.kind), visitor, html);
 }

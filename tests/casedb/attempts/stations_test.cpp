@@ -18,7 +18,7 @@ TEST(StationName, IsShortAndPlain) {
                           "01234567890123456789012345678901234567890"}) {
     const auto checked = check_station_name(bad);
     ASSERT_FALSE(checked) << bad;
-    EXPECT_EQ(checked.error().code, "bad_station");
+    EXPECT_EQ(checked.error().code, "bad_station_name");
   }
   EXPECT_TRUE(check_station_name(kUnnamedStation));
 }
