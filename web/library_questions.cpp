@@ -17,7 +17,6 @@
 #include "casedb/grading/learning.h"
 #include "casedb/people/noted_tries.h"
 #include "casedb/people/simulated_people.h"
-#include "reports/studies/validity_report.h"
 #include "reports/words/grade_words.h"
 #include "sim/base/failure.h"
 #include "sim/base/hex.h"
@@ -231,19 +230,6 @@ class LibraryQuestions final : public Questions {
     return view;
   }
 
-  base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
-                                         const std::string& program_version) override {
-    auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
-    if (!library) return library.error();
-    library->act_for(casedb::Actor::person(person_id));
-    const auto study = casedb::find_study(*library, study_id);
-    if (!study) return study.error();
-    const auto plan = casedb::find_plan(*library, study_id);
-    if (!plan) return plan.error();
-    return reports::validity_page(
-        reports::validity_report_of(*library, *study, *plan, "report validity", program_version));
-  }
-
   reports::AuditView audit_of(int days) override {
     constexpr std::size_t kMostRows = 500;
     constexpr std::int64_t kDay_us = std::int64_t{24} * 3600 * 1'000'000;
@@ -362,6 +348,16 @@ class LibraryQuestions final : public Questions {
   casedb::AttemptGrade look_at(const casedb::AttemptRow& row) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::Grader(pages_.library).look_at(row);
+  }
+
+  std::vector<casedb::StationUse> list_station_use(const std::vector<std::string>& people) override {
+    const std::lock_guard lock(recordings_.mutex);  // of many attempts: no page waits
+    return casedb::list_station_use(recordings_.library, people);
+  }
+
+  std::vector<casedb::StationTiming> list_station_timing() override {
+    const std::lock_guard lock(recordings_.mutex);
+    return casedb::list_station_timing(recordings_.library);
   }
 
   std::vector<casedb::AttemptComment> list_comments(const std::string& attempt_id) override {
@@ -524,6 +520,8 @@ base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, H
 
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,
                                  std::function<void(const std::string&)> log, HeavyWork work) {
+  const std::filesystem::path jobs_folder = library.folder() / casedb::kJobsFolder;
+  JobRunner jobs = std::move(work.jobs);
   auto questions = questions_of(std::move(library), std::move(work));
   if (!questions.has_value()) return questions.error();
   Surroundings surroundings;
@@ -542,6 +540,7 @@ base::Result<Server> open_server(casedb::Library library, const ServeOptions& op
   };
   surroundings.log = std::move(log);
   surroundings.program_version = std::move(program_version);
+  if (jobs) surroundings.jobs = std::make_shared<Jobs>(jobs_folder, std::move(jobs), surroundings.utc_us);
   return Server::open(std::move(*questions), std::move(surroundings), options);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "casedb/database/library.h"
+#include "web/jobs/jobs.h"
 #include "web/server.h"
 #include "web/site/questions.h"
 
@@ -17,6 +18,7 @@ using PicturesMaker =
 struct HeavyWork {
   CaseChecker check{};
   PicturesMaker pictures{};
+  JobRunner jobs{};  // in processes of their own
 };
 
 // Opens further handles of the same library, so that reading a recording and hashing a password hold up no page.

@@ -92,7 +92,7 @@ struct Server::Parts {
     }
   }
 
-  void answer(Job job) noexcept {
+  void answer(QueuedRequest job) noexcept {
     std::string bytes;
     try {
       Response response = site.answer(job.request);
@@ -173,7 +173,7 @@ int Server::port() const noexcept {
 
 void Server::run() {
   Parts& parts = *parts_;
-  parts.workers.emplace([&parts](Job job) { parts.answer(std::move(job)); });
+  parts.workers.emplace([&parts](QueuedRequest job) { parts.answer(std::move(job)); });
   const std::jthread keeper([&parts](const std::stop_token& stop) { parts.keep_sessions(stop); });
   try {
     parts.connections.run();

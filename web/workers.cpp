@@ -10,7 +10,7 @@ constexpr std::array<std::size_t, kLanes> kThreads = {4, 2, 1, 1};
 
 }  // namespace
 
-Workers::Workers(std::function<void(Job)> work) : work_(std::move(work)) {
+Workers::Workers(std::function<void(QueuedRequest)> work) : work_(std::move(work)) {
   for (std::size_t lane = 0; lane < queues_.size(); ++lane)
     for (std::size_t i = 0; i < kThreads[lane]; ++i)
       threads_.emplace_back([this, &queue = queues_[lane]] { run(queue); });
@@ -25,11 +25,11 @@ Workers::~Workers() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void Workers::add(Lane lane, Job job) {
+void Workers::add(Lane lane, QueuedRequest job) {
   Queue& queue = queues_[static_cast<std::size_t>(lane)];
   {
     const std::lock_guard lock(queue.mutex);
-    std::deque<Job>& own = queue.of_address[job.request.from];
+    std::deque<QueuedRequest>& own = queue.of_address[job.request.from];
     if (own.empty()) queue.turns.push_back(job.request.from);
     own.push_back(std::move(job));
   }
@@ -38,7 +38,7 @@ void Workers::add(Lane lane, Job job) {
 
 void Workers::run(Queue& queue) {
   for (;;) {
-    Job job;
+    QueuedRequest job;
     {
       std::unique_lock lock(queue.mutex);
       queue.arrived.wait(lock, [&] { return queue.ended || !queue.turns.empty(); });

@@ -18,7 +18,7 @@
 
 namespace seldinger::web {
 
-struct Job {
+struct QueuedRequest {
   std::uint64_t connection = 0;
   Request request;
 };
@@ -26,24 +26,24 @@ struct Job {
 class Workers {
  public:
   // `work` may throw nothing.
-  explicit Workers(std::function<void(Job)> work);
+  explicit Workers(std::function<void(QueuedRequest)> work);
   ~Workers();  // what is being answered is finished, what waits is dropped
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  void add(Lane lane, Job job);  // how many can wait, connections bound
+  void add(Lane lane, QueuedRequest job);  // how many can wait, connections bound
 
  private:
   struct Queue {
     std::mutex mutex;
     std::condition_variable arrived;
-    std::map<std::string, std::deque<Job>> of_address;
+    std::map<std::string, std::deque<QueuedRequest>> of_address;
     std::deque<std::string> turns;  // each address with something once
     bool ended = false;
   };
   void run(Queue& queue);
 
-  const std::function<void(Job)> work_;
+  const std::function<void(QueuedRequest)> work_;
   std::array<Queue, kLanes> queues_;
   std::vector<std::thread> threads_;
 };

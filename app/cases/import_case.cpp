@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/cli/progress.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/export/dicom_series.h"
 #include "casedb/import/ct_rules.h"
@@ -20,7 +21,7 @@ namespace seldinger::app {
 namespace {
 
 void progress(const char* what) {
-  if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s …\n", what);
+  if (is_watched()) std::fprintf(stderr, "%s …\n", what);
 }
 
 // A folder of this process that goes when it does.

@@ -244,6 +244,8 @@ constexpr ErrorCode kStudyCodes[] = {
      "Freeze the plan; `seldinger study look` tells counts of all together."}};
 
 constexpr ErrorCode kAttemptCodes[] = {
+    {"bad_station_name", kRefuses, "A station's name has not 1 to 40 letters, digits, spaces and - _ .",
+     "Give another name."},
     {"attempt_runs", kRefuses, "Somebody is at this attempt right now.", "Wait until it has ended."},
     {"not_simulated", kRefuses, "A person made this attempt, not a simulated operator.",
      "Go on with it in `seldinger train`."},
@@ -522,6 +524,9 @@ constexpr ErrorCode kEnvironmentCodes[] = {
     {"bad_port", kRefuses, "A port is 0 to 65535.", "Give such a port."},
     {"bad_origin", kRefuses, "What a reverse proxy serves is an address like https://sim.example.org.",
      "Give `--behind` the name as browsers write it, without a path."},
+    {"too_many_jobs", kRefuses, "Too many of somebody's jobs have not ended.", "Wait, or cancel one under /jobs."},
+    {"no_job", kRefuses, "There is no such job, or it is another's.", "/jobs lists one's own."},
+    {"bad_piece", kRefuses, "What was sent for an import is no next piece of a file.", "Send the files again."},
     {"port_taken", kRefuses, "Cannot listen on the port, most often because another program does.",
      "Give another `--port`; 0 takes any free one."},
     {"disk", kFails, "The disk is full, or a file or folder cannot be made, read or written.",
@@ -531,7 +536,7 @@ constexpr ErrorCode kEnvironmentCodes[] = {
      "List, show, export and back up still work: back it up to another disk."},
     {"database", kFails, "The database cannot be used, or holds what this program cannot read.",
      "`seldinger check`."},
-    {"no_reader", kFails, "No process can be started to read a file from outside.", "Close other programs."},
+    {"no_reader", kFails, "No process can be started for a file from outside or a job.", "Close other programs."},
     {"memory", kFails, "There is not enough memory.", "Close other programs, or use a smaller volume."},
     {"gl", kFails, "OpenGL 4.3 cannot be had or fails.",
      "`seldinger doctor`; `--backend cpu` where a command has it."},

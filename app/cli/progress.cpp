@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace seldinger::app {
 namespace {
@@ -18,13 +19,17 @@ std::string about(double seconds) {
 
 }  // namespace
 
+bool is_watched() {
+  return ::isatty(STDERR_FILENO) != 0 || std::getenv(kWatchedVariable) != nullptr;
+}
+
 std::string progress_text(std::size_t done, std::size_t all, double elapsed_s) {
   std::string text = std::to_string(done) + " of " + std::to_string(all);
   if (done == 0 || done >= all) return text;
   return text + ", about " + about(elapsed_s * static_cast<double>(all - done) / static_cast<double>(done));
 }
 
-Progress::Progress(std::size_t all) : all_(all), seen_(all > 1 && ::isatty(STDERR_FILENO) != 0) {
+Progress::Progress(std::size_t all) : all_(all), seen_(all > 1 && is_watched()) {
   show();
 }
 

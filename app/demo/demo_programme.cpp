@@ -17,6 +17,8 @@
 namespace seldinger::app {
 namespace {
 
+using namespace std::string_literals;
+
 constexpr const char* kOwnProgramme = "Radiology North";
 constexpr const char* kOtherProgramme = "Radiology South";
 
@@ -78,7 +80,9 @@ base::Result<void> practise(casedb::Library& library, const DemoCohort& cohort, 
     if (!simulation) return simulation.error();
     const session::PeopleWish wish{*assessment::population::named_group(cohort.group), cohort.seed, cohort.people,
                                    one.count, one.days};
-    const auto people = session::people_trials(library, wish, simulation->task());
+    auto people = session::people_trials(library, wish, simulation->task());
+    for (session::SimulatedTrial& trial : people.trials)
+      trial.station = cohort.site + (trial.person.value_or(0) % 3 == 0 ? " 2"s : " 1"s);
     for (const std::string& person_id : people.person_ids)
       if (const auto done = casedb::enrol(library, cohort_id, person_id, casedb::Post::learner); !done)
         return done.error();

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/cli/version.h"
+#include "app/library/job_program.h"
 #include "app/replay/replay_output.h"
 #include "casedb/database/audit.h"
 #include "session/case/case_check.h"
@@ -44,7 +45,7 @@ base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& a
   const std::filesystem::path folder = library.folder();
   const casedb::Actor starts = library.actor();
   const auto log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-  const web::HeavyWork work{session::check_case, telling_pictures};
+  const web::HeavyWork work{session::check_case, telling_pictures, job_runner(folder)};
   auto server = web::open_server(std::move(library), {at.host, at.port, at.behind}, kVersion, log, work);
   if (!server && server.error().code == "port_taken" && at.any_port_if_taken) {
     auto again = casedb::Library::open(folder);

@@ -1,5 +1,6 @@
 // train: the trainer's window.
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 
 #include "app/acting/acting.h"
@@ -9,6 +10,8 @@
 
 namespace seldinger::app {
 namespace {
+
+constexpr const char* kStationVariable = "SELDINGER_STATION";
 
 volatile std::sig_atomic_t told_to_end = 0;
 void on_signal(int) {
@@ -48,12 +51,27 @@ base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
   return std::optional<Arms>(std::move(arms));
 }
 
+// As the option says, else the environment, else nobody named it.
+base::Result<std::string> station_name_of(const Arguments& arguments) {
+  const char* set = std::getenv(kStationVariable);
+  const bool told = arguments.has("--station-name");
+  std::string name = told                             ? arguments.text("--station-name")
+                     : set != nullptr && *set != '\0' ? set
+                                                      : casedb::kUnnamedStation;
+  if (const auto fits = casedb::check_station_name(name); !fits)
+    return error_of(told ? "--station-name" : kStationVariable, name, fits.error());
+  return name;
+}
+
 int run_train(const Arguments& arguments) {
+  auto station = station_name_of(arguments);
+  if (!station) return refuse(station.error());
   auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   auto arms = arms_of(arguments);
   if (!arms) return refuse(arms.error());
   Trainer trainer(std::move(*library), std::move(*arms));
+  trainer.set_station(std::move(*station));
   if (arguments.has("--case"))
     if (const auto refused = trainer.open_at_log_in(arguments.text("--case"))) return refuse(*refused);
   Window::Settings settings;
@@ -97,6 +115,10 @@ constexpr Option kTrainOptions[] = {
     {"--station", "FILE.json",
      "whose arms are left and right, where they stand, and how they are set, as the device page (F10) keeps it; "
      "default with haply ~/.config/seldinger/station.json"},
+    {"--station-name", "NAME",
+     "what this workstation is called in records, pages and exports; else SELDINGER_STATION of the environment, "
+     "else "
+     "“this computer”"},
     {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
     {"--backend", "gpu|cpu|auto",
      "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},

@@ -199,9 +199,22 @@ MetricValue read_metric(const Statement& from) {
   return metric;
 }
 
+std::string json_of_ids(const std::vector<std::string>& ids) {
+  std::string json = "[";
+  for (const std::string& id : ids) {
+    CHECK(id.find_first_not_of("0123456789abcdef-") == id.npos);
+    json += (json.size() > 1 ? ",\"" : "\"") + id + "\"";
+  }
+  return json + "]";
+}
+
 std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id) {
   Statement row = question(library.database(), "servo_record");
   if (!row.bind("attempt_id", attempt_id).step()) return std::nullopt;
+  return read_servo_record(row);
+}
+
+cases::ServoRecord read_servo_record(const Statement& row) {
   cases::ServoRecord record;
   record.tick_s = row.real("tick_s");
   record.scheduler = row.text("scheduler") == "fifo" ? cases::ServoScheduler::fifo : cases::ServoScheduler::other;

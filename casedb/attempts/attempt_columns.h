@@ -19,6 +19,7 @@ Statement& bind_chunk(Statement& insert, const std::string& attempt_id, const ca
 std::vector<cases::RecordingChunk> read_chunks(Statement rows, const std::string& attempt_id);
 
 void insert_servo_record(Sqlite& database, const std::string& attempt_id, const cases::ServoRecord& record);
+cases::ServoRecord read_servo_record(const Statement& row);
 
 // Those that are known, into a table by its question; and back, from one attempt's rows. What today's table does
 // not have, or not so, is left out.
@@ -27,6 +28,9 @@ void insert_conditions(Sqlite& database, const char* into, const std::string& at
 Conditions read_conditions(Statement rows, const std::string& attempt_id);
 
 MetricValue read_metric(const Statement& from);
+
+// For json_each: ids are hexadecimal digits and dashes, so nothing in them needs to be escaped (CHECKed).
+std::string json_of_ids(const std::vector<std::string>& ids);
 
 AttemptEnd end_from(const std::string& name);  // CHECKs that there is one of that name
 

@@ -178,6 +178,11 @@ constexpr ConditionRow kRows[] = {
                                       {"of the window, at last", kOfWindow}),
     row<&Conditions::window_height_px>("window_height_px", "Window's height", "px",
                                        {"of the window, at last", kOfWindow}),
+    row<&Conditions::station>(
+        "station", "Station", "",
+        {"the workstation, by the name that it was given (train --station-name); exports call "
+         "it W- and a number",
+         "a simulated operator's attempt, or not recorded"}),
 };
 
 }  // namespace

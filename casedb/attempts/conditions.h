@@ -46,6 +46,7 @@ struct Conditions {
   LagQuantiles force_lag, room_lag, picture_lag;
   std::optional<bool> sound, stereo;
   std::optional<int> window_width_px, window_height_px;
+  std::optional<std::string> station;
 };
 
 // The way that the trainee planned before the room. Nothing: none was, or it is not known.

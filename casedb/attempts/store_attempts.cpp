@@ -256,16 +256,6 @@ std::int64_t bounded(std::size_t value) {
   return static_cast<std::int64_t>(std::min<std::size_t>(value, std::numeric_limits<std::int64_t>::max()));
 }
 
-// Ids are hexadecimal digits and dashes: nothing in them needs to be escaped.
-std::string json_of_ids(const std::vector<std::string>& ids) {
-  std::string json = "[";
-  for (const std::string& id : ids) {
-    CHECK(id.find_first_not_of("0123456789abcdef-") == id.npos);
-    json += (json.size() > 1 ? ",\"" : "\"") + id + "\"";
-  }
-  return json + "]";
-}
-
 }  // namespace
 
 std::vector<AttemptRow> list_attempts(Library& library, const WhoseAttempts& whose, std::size_t first,

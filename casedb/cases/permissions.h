@@ -58,6 +58,7 @@ enum class Action {
   // People.
   see_cohort,             // who is in it, by name
   see_cohort_cells,       // how many are in it and what they did together, from kSmallestCell people upwards
+  see_station_use,        // what was done at which workstation
   manage_cohorts,         // makes them, says who belongs to them
   appoint_director,       // of a programme
   manage_studies,         // what they ask, who works on them
@@ -66,6 +67,7 @@ enum class Action {
   enrol_in_study,         // people who consent to it
   manage_questionnaires,  // stores them, opens rounds in which they are answered
   see_responses,   // of a round: by respondent and group. "own": opened by oneself; of a study: its researchers'
+  run_job,         // long work that a page asks for: only one's own is seen
   answer_consent,  // give and withdraw, and state facts of oneself
   let_in_again,    // somebody whose log-in is delayed
   erase_attempts,
@@ -74,7 +76,8 @@ enum class Action {
   manage_accounts,  // add, close, open; role, level
   set_password,
   // The library.
-  keep_library,  // back up, repair, score again
+  keep_library,        // back up, repair, score again
+  see_station_timing,  // how well each workstation keeps time
   read_audit,
 };
 
@@ -318,6 +321,10 @@ inline constexpr Permission kPermissions[] = {
      "see_cohort_cells",
      "a director sees counts of other programmes, of at least five people",
      {{{Role::director}}}},
+    {Action::see_station_use,
+     "see_station_use",
+     "a director sees what the own programmes did at which station",
+     {{{Role::director}, {}, Whose::own_programmes}}},
     {Action::manage_cohorts,
      "manage_cohorts",
      "an admin says who belongs to a cohort, a director within the own programmes",
@@ -349,6 +356,10 @@ inline constexpr Permission kPermissions[] = {
      "study",
      {{{Role::mentor, Role::researcher, Role::director}, {}, Whose::own},
       {{Role::researcher}, {}, Whose::own_studies}}},
+    {Action::run_job,
+     "run_job",
+     "a mentor, researcher or admin sees their own jobs",
+     {{{Role::mentor, Role::researcher, Role::admin}, {}, Whose::own}}},
     {Action::answer_consent, "answer_consent", "everybody answers for themselves", {{kEveryRole, {}, Whose::own}}},
     {Action::let_in_again,
      "let_in_again",
@@ -370,6 +381,10 @@ inline constexpr Permission kPermissions[] = {
      {{{Role::admin}}, {kEveryRole, {}, Whose::own}}},
 
     {Action::keep_library, "keep_library", "an admin backs the library up and repairs it", {{{Role::admin}}}},
+    {Action::see_station_timing,
+     "see_station_timing",
+     "an admin sees how well each station keeps time",
+     {{{Role::admin}}}},
     {Action::read_audit, "read_audit", "an admin reads the audit log", {{{Role::admin}}}},
 };
 

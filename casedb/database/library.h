@@ -18,6 +18,8 @@ namespace seldinger::casedb {
 class Sqlite;
 
 // A library's parts, by their names in its folder.
+// Of each person the jobs that they asked for on pages (web/jobs/jobs.h), in a folder that is called as their id.
+constexpr const char* kJobsFolder = "jobs";
 constexpr const char* kDatabaseFile = "seldinger.sqlite";  // appears last: where it is, there is a library
 constexpr const char* kIdentitiesFile = "identities.sqlite";
 constexpr const char* kAssetsFolder = "assets";

@@ -228,6 +228,9 @@ base::Result<Erased> erase_person(Library& library, const std::string& name, con
   empty_person(erasing, person_id);
   erasing.commit();
   clean(library, erasing.sum);
+  std::error_code kept;
+  fs::remove_all(library.folder() / kJobsFolder / person_id, kept);
+  if (kept) throw base::Failure("disk", "the files of a person's jobs cannot be deleted");
   {
     // Last: as long as the name is there, the erasure can be asked for again.
     Transaction transaction(library.identities());

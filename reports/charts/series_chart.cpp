@@ -42,15 +42,21 @@ Axis y_axis(const SeriesChart& chart, std::vector<double>& ticks) {
   return {ticks.front(), ticks.back(), kHeight - kBottom, kTop};
 }
 
-void add_axes(Html& html, const SeriesChart& chart, const Axis& x, const Axis& y,
-              const std::vector<double>& ticks) {
+std::vector<double> x_ticks_of(const SeriesChart& chart) {
+  if (chart.measured_x) return round_ticks(chart.points.front().x, chart.points.back().x);
+  std::vector<double> ticks;
+  const std::size_t every = (chart.points.size() - 1) / kMostXLabels + 1;
+  for (std::size_t i = 0; i < chart.points.size(); i += every) ticks.push_back(chart.points[i].x);
+  return ticks;
+}
+
+void add_axes(Html& html, const SeriesChart& chart, const Axis& x, const Axis& y, const std::vector<double>& ticks,
+              const std::vector<double>& x_ticks) {
   for (const double tick : ticks) {
     add_svg_line(html, "grid", kLeft, y.at(tick), kWidth - kRight, y.at(tick));
     add_svg_text(html, "end", kLeft - 6.0, y.at(tick) + 4.0, tick_text(tick));
   }
-  const std::size_t every = (chart.points.size() - 1) / kMostXLabels + 1;
-  for (std::size_t i = 0; i < chart.points.size(); i += every)
-    add_svg_text(html, "middle", x.at(chart.points[i].x), kHeight - kBottom + 15.0, tick_text(chart.points[i].x));
+  for (const double at : x_ticks) add_svg_text(html, "middle", x.at(at), kHeight - kBottom + 15.0, tick_text(at));
   add_svg_text(html, "middle", 0.5 * (kLeft + kWidth - kRight), kHeight - 6.0, chart.x_label);
   html.raw("<text text-anchor=\"middle\" transform=\"translate(14 ").text(svg_px(0.5 * (kTop + kHeight - kBottom)));
   html.raw(") rotate(-90)\">").text(chart.y_label).raw("</text>\n");
@@ -98,7 +104,9 @@ Html series_chart(const SeriesChart& asked) {
   if (chart.points.empty()) return html;
   std::vector<double> ticks;
   const Axis y = y_axis(chart, ticks);
-  const double first = chart.points.front().x, last = chart.points.back().x;
+  const std::vector<double> x_ticks = x_ticks_of(chart);
+  const double first = chart.measured_x ? x_ticks.front() : chart.points.front().x;
+  const double last = chart.measured_x ? x_ticks.back() : chart.points.back().x;
   // One point stands in the middle.
   const double margin = last > first ? 0.02 * (last - first) : 1.0;
   const Axis x{first - margin, last + margin, kLeft, kWidth - kRight};
@@ -107,7 +115,7 @@ Html series_chart(const SeriesChart& asked) {
   html.raw("\"><svg class=\"series\" role=\"img\" viewBox=\"0 0 ").text(svg_px(kWidth) + " " + svg_px(kHeight));
   html.raw("\"><title>").text(chart.said).raw("</title>\n");
   if (chart.band) add_band(html, *chart.band, y);
-  add_axes(html, chart, x, y, ticks);
+  add_axes(html, chart, x, y, ticks, x_ticks);
   add_limits(html, chart, y);
   if (!chart.curve.empty()) add_path(html, "curve", chart.curve, x, y);
   if (chart.joined) {

@@ -34,6 +34,7 @@ struct SeriesChart {
   std::vector<std::pair<double, double>> curve;
   std::vector<SeriesLimit> limits;
   std::optional<double> y_low, y_high;  // the ends of a scale that has them
+  bool measured_x = false;              // x is a measure with round numbers below, not the place in a row
   std::optional<SeriesBand> band{};
 };
 // What is not finite is left out. Nothing is drawn of no point.

@@ -316,8 +316,9 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
   std::string person_before;
   std::set<std::string> people;  // whose own attempts are among them
   for (const Place& place : places_of(keys, choice, names, consenting)) {
-    const auto row = casedb::find_attempt(library, place.key->attempt_id);
+    auto row = casedb::find_attempt(library, place.key->attempt_id);
     if (!row) return row.error();
+    if (auto& station = row->conditions.station) station = names.of("W-", *station);  // somebody wrote it
     AttemptFacts facts;
     facts.names = {place.attempt, names.of("C-", row->case_id), names.of("T-", row->lesion_id), std::nullopt};
     facts.row = &*row;

@@ -27,8 +27,12 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
     if (visitor.role != "admin") html.raw(" <a href=\"/curricula\">Curriculum</a>");
     if (visitor.role != "trainee") html.raw(" <a href=\"/cases\">Cases</a>");
     if (answers_for_others) html.raw(" <a href=\"/cohorts\">Cohorts</a>");
+    if (visitor.role == "director") html.raw(" <a href=\"/stations\">Stations</a>");
     if (visitor.role == "admin")
-      html.raw(" <a href=\"/accounts\">Accounts</a> <a href=\"/log-ins\">Log-ins</a> <a href=\"/audit\">Audit</a>");
+      html.raw(
+          " <a href=\"/stations/timing\">Stations</a> <a href=\"/accounts\">Accounts</a> <a "
+          "href=\"/log-ins\">Log-ins</a> <a href=\"/audit\">Audit</a>");
+    if (visitor.role != "trainee" && visitor.role != "director") html.raw(" <a href=\"/jobs\">Jobs</a>");
     html.raw(" <a href=\"/me\">About you</a>");
     html.raw(" <a href=\"/metrics\">Metrics</a>");
     html.raw("</nav>\n<div class=\"who\"><span>")

@@ -41,6 +41,10 @@ std::string_view tables_script() {
   return page_file("tables.js");
 }
 
+std::string_view jobs_script() {
+  return page_file("jobs.js");
+}
+
 std::string_view icon() {
   return page_file("icon.svg");
 }

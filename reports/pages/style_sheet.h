@@ -11,6 +11,7 @@ std::string_view keep_typed_script();
 std::string_view replay_script();
 std::string_view film_script();
 std::string_view tables_script();
-std::string_view icon();  // SVG
+std::string_view jobs_script();  // that sends files and tells how far a job is
+std::string_view icon();         // SVG
 
 }  // namespace seldinger::reports

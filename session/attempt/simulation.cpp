@@ -88,6 +88,7 @@ base::Result<casedb::NewAttempt> Simulation::make(const SimulatedTrial& trial, b
   static_cast<casedb::AttemptHead&>(attempt) =
       head_of(task_, program_, trial.profile.name, trial.seed, trial.person_id);
   if (trial.started_us) attempt.started_us = *trial.started_us;
+  attempt.conditions.station = trial.station;
   double limit_s = kMaxAttemptSeconds;
   casedb::AttemptEnd at_limit = casedb::AttemptEnd::time_limit;
   if (trial.mishaps) {

@@ -31,6 +31,7 @@ struct SimulatedTrial {
   std::optional<std::string> person_id{};
   std::optional<std::int64_t> started_us{};
   std::optional<assessment::population::Mishaps> mishaps{};
+  std::optional<std::string> station{};  // where that is to count
 };
 
 // `count` attempts of the profile itself, attempt i with seed + i; or of each of `people`, drawn about the profile

@@ -95,6 +95,19 @@ async function replay(page, comment) {
   expect((await page.locator("[data-said]").textContent()).includes(comment), "the comment is not shown at its moment");
 }
 
+// A body of 40 HU in air, 160 x 160 x 90 mm, as one MetaImage file.
+function ct() {
+  const size = [64, 64, 30], voxels = new Int16Array(size[0] * size[1] * size[2]);
+  for (let i = 0; i < voxels.length; ++i) {
+    const x = (i % 64) - 31.5, y = (Math.floor(i / 64) % 64) - 31.5;
+    voxels[i] = (x / 26) ** 2 + (y / 18) ** 2 < 1 ? 40 + (i % 7) : -1000;
+  }
+  const head = "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nOffset = 0 0 0\n" +
+    "TransformMatrix = 1 0 0 0 1 0 0 0 1\nElementSpacing = 2.5 2.5 3\nDimSize = 64 64 30\nElementType = MET_SHORT\n" +
+    "ElementDataFile = LOCAL\n";
+  return Buffer.concat([Buffer.from(head), Buffer.from(voxels.buffer)]);
+}
+
 const jobs = {
   async trainee(page, base) {
     expect((await heading(page)) === "What is next", "lands elsewhere");
@@ -149,15 +162,29 @@ const jobs = {
     await look(page, "cases");
     await page.locator("table.list tbody a").first().click();
     await look(page, "case");
+    await page.getByRole("link", { name: "Jobs" }).click();
+    await look(page, "jobs");
+    const title = "Sent by a " + where;
+    await page.getByLabel("Title of the case").fill(title);
+    await page.getByRole("button", { name: "Choose its files" }).click();
+    await page.getByLabel("Or one file").waitFor();
+    await look(page, "job-files");
+    await page.getByLabel("Or one file").setInputFiles({ name: "ct.mha", mimeType: "application/octet-stream", buffer: ct() });
+    await page.getByRole("link", { name: "Go to the case" }).waitFor();
+    await look(page, "job-done");
+    await page.getByRole("link", { name: "Go to the case" }).click();
+    expect((await heading(page)).includes(title), "the case that was sent is not there");
   },
   async researcher(page, base) {
     expect((await heading(page)) === "Your studies", "lands elsewhere");
     await look(page, "start");
     await page.getByRole("link", { name: "Needles in phantoms" }).click();
     await look(page, "study");
+    await page.getByRole("button", { name: "Make the validity report" }).click();
+    await page.getByRole("link", { name: "validity-report.html" }).waitFor();
+    await look(page, "job-done");
     const [report] = await Promise.all([
-      page.waitForEvent("download"),
-      page.getByRole("button", { name: "Make the validity report" }).click()]);
+      page.waitForEvent("download"), page.getByRole("link", { name: "validity-report.html" }).click()]);
     expect(report.suggestedFilename() === "validity-report.html", "no report");
     await page.getByRole("link", { name: "Attempts" }).first().click();
     expect(!(await page.content()).includes(">trainee<"), "a name is read");
@@ -179,6 +206,8 @@ const jobs = {
     await look(page, "cohorts");
     await page.getByRole("link", { name: "Curriculum" }).click();
     await look(page, "curricula");
+    await page.getByRole("link", { name: "Stations" }).click();
+    await look(page, "stations");
   },
   async admin(page, base) {
     expect((await heading(page)) === "This server", "lands elsewhere");
@@ -188,6 +217,8 @@ const jobs = {
     await page.getByLabel("Only rows with").fill("logs in");
     expect((await page.locator("tbody tr:visible").count()) > 0, "the filter hides all");
     await look(page, "audit");
+    await page.getByRole("link", { name: "Stations" }).click();
+    await look(page, "stations-timing");
     await page.getByRole("link", { name: "Log-ins" }).click();
     await look(page, "log-ins");
     await page.getByRole("link", { name: "Accounts" }).click();

@@ -89,7 +89,11 @@ def main():
                 ("curriculum", "director", "/curricula", (WIDE,)),
                 ("cases", "mentor", "/cases", (WIDE,)),
                 ("cohorts", "director", "/cohorts", (WIDE,)),
+                ("stations", "director", "/stations", (WIDE,)),
+                ("stations-timing", "admin", "/stations/timing", (WIDE,)),
+                ("jobs", "mentor", "/jobs", (WIDE,)),
                 ("researcher", "researcher", "/attempts", (WIDE,)),
+                ("accounts", "admin", "/accounts", (WIDE,)),
                 ("audit", "admin", "/audit", (WIDE,)),
                 ("me", "trainee", "/me", (WIDE,))):
             for size in sizes:

@@ -122,11 +122,6 @@ class FakeQuestions final : public Questions {
       if (one.study.study_id == study_id) return one;
     return base::Error{"no_study", "there is no such study"};
   }
-  base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
-                                         const std::string&) override {
-    done.push_back(person_id + " looks at " + study_id);
-    return std::string("<!doctype html>");
-  }
   reports::AuditView audit_of(int days) override {
     reports::AuditView view = audit;
     view.days = days;
@@ -205,6 +200,12 @@ class FakeQuestions final : public Questions {
     return base::Error{"no_attempt", "there is no such attempt"};
   }
   casedb::AttemptGrade look_at(const casedb::AttemptRow&) override { return grade; }
+  std::vector<casedb::StationUse> list_station_use(const std::vector<std::string>& people) override {
+    const std::lock_guard lock(mutex);
+    stations_asked_for = people;
+    return station_use;
+  }
+  std::vector<casedb::StationTiming> list_station_timing() override { return station_timing; }
   std::vector<casedb::AttemptComment> list_comments(const std::string&) override { return comments; }
   base::Result<void> add_comment(const std::string& person_id, const std::string& attempt_id, double at_s,
                                  const std::string& body) override {
@@ -288,6 +289,9 @@ class FakeQuestions final : public Questions {
   std::vector<casedb::AttemptComment> comments;  // of every attempt
   std::vector<reports::CurriculumView> curricula;
   std::optional<std::string> curricula_asked_for;
+  std::vector<casedb::StationUse> station_use;
+  std::vector<std::string> stations_asked_for;  // person ids
+  std::vector<casedb::StationTiming> station_timing;
   std::vector<std::byte> picture;
   std::function<void()> fault;  // thrown from questions about attempts and accounts
   std::function<void()> during_log_in, during_log_out, during_health;

@@ -14,8 +14,9 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kPages[] = {"/attempts", "/cases", "/curricula", "/progress", "/cohorts",
-                                  "/studies",  "/me",    "/accounts",  "/log-ins",  "/audit"};
+constexpr const char* kPages[] = {
+    "/attempts", "/cases",   "/curricula", "/progress", "/cohorts",         "/studies", "/me",
+    "/accounts", "/log-ins", "/audit",     "/stations", "/stations/timing", "/jobs"};
 
 // Cohorts, learners, a study, consents and the log, so that each page has something to tell.
 void fill_lists(FakeSite& fake) {
@@ -71,6 +72,15 @@ TEST(ListsJson, TellsEveryRoleTheSameNamesAsThePage) {
   }
   EXPECT_GT(told, 30);
   EXPECT_GT(compared, 300);
+}
+
+TEST(ListsJson, WhatPassingTellsIsToldAsOnThePage) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::director);
+  const json told = json::parse(browser.get("/curricula.json").body)["dependability"];
+  EXPECT_TRUE(told["phi"].is_null()) << "nobody has attempted anything";
+  EXPECT_THAT(browser.get("/curricula").body, HasSubstr(told["words"].get<std::string>()));
 }
 
 TEST(ListsJson, WhatIsWithheldIsNull) {

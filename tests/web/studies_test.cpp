@@ -1,4 +1,4 @@
-// Studies as who works on them reads them: people by pseudonym, no outcome, and a report that is a look.
+// Studies as who works on them reads them: people by pseudonym, no outcome, and a report only when asked.
 #include <gmock/gmock.h>
 
 #include "tests/web/fake_site.h"
@@ -70,17 +70,17 @@ TEST_F(Studies, AFrozenOneTellsWhoIsInByPseudonymAndWhoHasLooked) {
   EXPECT_THAT(browser.get("/").body, HasSubstr("/studies/" + kStudy)) << "where a researcher lands";
 }
 
-TEST_F(Studies, TheReportIsMadeInTheResearchersNameOnlyWhenAsked) {
-  fake.questions.studies[0].plan = stored_plan(true);
-  const std::string page = browser.get("/studies/" + kStudy).body, action = "/studies/" + kStudy + "/report";
+// Both are jobs (jobs_test.cpp), and of a plan that is not frozen nobody gets outcomes by person.
+TEST_F(Studies, ReportAndExportAreAskedForAsJobs) {
+  for (const bool frozen : {false, true}) {
+    fake.questions.studies[0].plan = stored_plan(frozen);
+    const std::string page = browser.get("/studies/" + kStudy).body;
+    EXPECT_NE(form_token(page, "/jobs"), "");
+    EXPECT_THAT(page, HasSubstr("name=\"kind\" value=\"study_report\""));
+    EXPECT_EQ(page.find("name=\"kind\" value=\"study_export\"") != page.npos, frozen);
+    EXPECT_THAT(page, HasSubstr("name=\"study\" value=\"" + kStudy + "\""));
+  }
   EXPECT_EQ(fake.questions.done, std::vector<std::string>{}) << "to read is no look";
-  EXPECT_EQ(browser.get(action).status, 405);
-  EXPECT_EQ(browser.post(action, "token=wrong").status, 403);
-  EXPECT_EQ(fake.questions.done, std::vector<std::string>{});
-  const Response report = browser.post(action, "token=" + form_token(page, action));
-  EXPECT_EQ(report.status, 200);
-  EXPECT_THAT(header_of(report, "Content-Disposition"), HasSubstr("attachment"));
-  EXPECT_EQ(fake.questions.done, std::vector<std::string>{"person-of-researcher looks at " + kStudy});
 }
 
 TEST_F(Studies, AnothersStudyIsByteForByteAMissingOne) {

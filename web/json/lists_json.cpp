@@ -1,6 +1,7 @@
 #include "web/json/lists_json.h"
 
 #include "casedb/database/values_json.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::web {
@@ -132,7 +133,8 @@ std::string cohorts_json(std::span<const reports::CohortView> cohorts) {
   return casedb::line({{"cohorts", list}});
 }
 
-std::string curricula_json(std::span<const reports::CurriculumView> curricula, bool own) {
+std::string curricula_json(std::span<const reports::CurriculumView> curricula, bool own,
+                           const assessment::statistics::Answer& dependability) {
   Json list = Json::array();
   for (const reports::CurriculumView& one : curricula) {
     Json items = Json::array();
@@ -152,7 +154,11 @@ std::string curricula_json(std::span<const reports::CurriculumView> curricula, b
                     {"state", casedb::name_of(one.curriculum.state)},
                     {"items", items}});
   }
-  return casedb::line({{"curricula", list}});
+  const bool told = dependability.estimable() && !reports::withheld(dependability, casedb::Learners::people);
+  return casedb::line({{"curricula", list},
+                       {"dependability",
+                        {{"phi", told ? Json(*dependability.estimate) : Json(nullptr)},
+                         {"words", reports::dependability_text(dependability, casedb::Learners::people)}}}});
 }
 
 std::string cases_json(std::span<const casedb::CaseRow> cases) {

@@ -25,7 +25,8 @@ std::string learners_json(std::span<const reports::LearnerView> learners, std::i
 std::string learner_json(const reports::LearnerView& learner, std::int64_t now_us);
 std::string cohorts_json(std::span<const reports::CohortView> cohorts);
 // `own`: of somebody who learns them; how many attempts they have left stands with their progress.
-std::string curricula_json(std::span<const reports::CurriculumView> curricula, bool own);
+std::string curricula_json(std::span<const reports::CurriculumView> curricula, bool own,
+                           const assessment::statistics::Answer& dependability);
 std::string cases_json(std::span<const casedb::CaseRow> cases);
 std::string studies_json(std::span<const reports::StudyView> studies);
 std::string study_json(const reports::StudyView& study);

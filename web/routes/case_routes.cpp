@@ -88,8 +88,9 @@ Response list_curricula(Site& site, const Call& call) {
 }
 
 Response list_curricula_json(Site& site, const Call& call) {
-  return json_response(
-      curricula_json(visible_curricula(site, call), call.reader->account.role == casedb::Role::trainee));
+  return json_response(curricula_json(visible_curricula(site, call),
+                                      call.reader->account.role == casedb::Role::trainee,
+                                      site.questions.dependability()));
 }
 
 constexpr Route kCaseRoutes[] = {
@@ -97,7 +98,7 @@ constexpr Route kCaseRoutes[] = {
     {"GET", "/curricula", Action::see_curriculum, true, kCurricula, "items, gates, and how far the trainee is",
      list_curricula},
     {"GET", "/curricula.json", Action::see_curriculum, false, kCurricula,
-     "the same: items, gates, and how many attempts they allow", list_curricula_json},
+     "the same: items, gates, how many attempts they allow, and what passing tells", list_curricula_json},
     {"GET", "/cases", Action::see_case, true, kCases, "the list, oldest first", list_cases},
     {"GET", "/cases.json", Action::see_case, false, kCases, "the same list", list_cases_json},
     {"GET", "/cases/{case_id}", Action::see_case, true, kCases,

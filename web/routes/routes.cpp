@@ -11,7 +11,8 @@ std::span<const Route> routes() {
     std::vector<Route> joined;
     for (const std::span<const Route> shelf :
          {entry_routes(), start_routes(), answering_routes(), rating_routes(), attempt_routes(), case_routes(),
-          learner_routes(), people_routes(), account_routes(), study_routes(), me_routes(), server_routes()})
+          learner_routes(), people_routes(), account_routes(), study_routes(), me_routes(), station_routes(),
+          job_routes(), server_routes()})
       joined.insert(joined.end(), shelf.begin(), shelf.end());
     return joined;
   }();

@@ -18,6 +18,8 @@ std::span<const Route> people_routes();
 std::span<const Route> account_routes();
 std::span<const Route> study_routes();
 std::span<const Route> me_routes();
+std::span<const Route> station_routes();
+std::span<const Route> job_routes();
 std::span<const Route> server_routes();
 
 }  // namespace seldinger::web

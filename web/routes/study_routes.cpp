@@ -35,17 +35,6 @@ Response show_study_json(Site& site, const Call& call) {
   return view ? json_response(study_json(*view)) : refusal(404, call.reader);
 }
 
-// A file of its own, which opens without this server.
-Response make_report(Site& site, const Call& call) {
-  if (!works_on(site, call, Action::plan_study, call.id)) return refusal(404, call.reader);
-  auto report =
-      site.questions.report_study(call.reader->account.person_id, call.id, site.surroundings.program_version);
-  if (!report) return refusal(404, call.reader);
-  Response response = html_response(200, std::move(*report));
-  response.headers.emplace_back("Content-Disposition", "attachment; filename=\"validity-report.html\"");
-  return response;
-}
-
 constexpr Route kStudyRoutes[] = {
     {"GET", "/studies", Action::plan_study, true, kOwnStudies, "the list, oldest first", list_studies},
     {"GET", "/studies.json", Action::plan_study, false, kOwnStudies, "the same list", list_studies_json},
@@ -53,9 +42,6 @@ constexpr Route kStudyRoutes[] = {
      "one study: its plan, who takes part by pseudonym, how far they are, who has looked; no outcome", show_study},
     {"GET", "/studies/{study_id}/study.json", Action::plan_study, false, kOwnStudies, "the same; no outcome",
      show_study_json},
-    {"POST", "/studies/{study_id}/report", Action::plan_study, true, kOwnStudies,
-     "its validity report as a file; of a frozen plan that is a look, and noted: token", make_report,
-     Lane::changes},
 };
 
 }  // namespace

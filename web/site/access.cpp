@@ -61,6 +61,7 @@ void withhold(casedb::Role role, casedb::AttemptRow& row) {
   if (reads_all(role)) return;
   row.case_title = reports::case_text(row.case_id);
   row.started_us = day_of(row.started_us);
+  row.conditions.station.reset();
   if (row.synthetic()) row.operator_name = std::string(reports::own_or_known_operator(row.operator_name));
 }
 

@@ -22,9 +22,10 @@ struct Request {
 };
 
 // What a page may load and run: nothing but the style sheet and pictures of this server; where it is answered or
-// rated also the scripts, of which one sends what is typed, and pictures that stand in the page itself; a list's
-// script runs and fetches nothing. A picture may be kept by the browser that got it, which asks each time whether
-// it is still the same and still theirs to see; all else is kept nowhere.
+// rated also the scripts, of which one sends what is typed, and pictures that stand in the page itself; a replay's
+// and a job's scripts ask this server; a list's script runs and fetches nothing. A picture may be kept by the
+// browser that got it, which asks each time whether it is still the same and still theirs to see; all else is kept
+// nowhere.
 enum class Policy { page, list, replay, answering, picture };
 
 struct Response {

@@ -10,6 +10,7 @@
 
 #include "casedb/attempts/attempts.h"
 #include "casedb/attempts/comments.h"
+#include "casedb/attempts/stations.h"
 #include "casedb/cases/case_checks.h"
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
@@ -96,9 +97,6 @@ class Questions {
   virtual std::vector<reports::StudyView> list_studies() = 0;
   virtual casedb::Relation relation_to_study(const std::string& reader_id, const std::string& study_id) = 0;
   virtual base::Result<reports::StudyView> find_study(const std::string& study_id) = 0;  // `no_study`
-  // As reports::validity_report_of, in that person's name: `no_study`, `no_plan`.
-  virtual base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
-                                                 const std::string& program_version) = 0;
 
   // The last `days` of the audit log, newest first and 500 at most, and whether the whole log stands. Takes
   // milliseconds for each thousand rows of it.
@@ -146,6 +144,9 @@ class Questions {
   virtual std::string case_mark(const std::string& case_id) = 0;
   // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.
   virtual base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) = 0;
+  // Which stations those people used for what; how well all of them keep time. Both may take a tenth of a second.
+  virtual std::vector<casedb::StationUse> list_station_use(const std::vector<std::string>& people) = 0;
+  virtual std::vector<casedb::StationTiming> list_station_timing() = 0;
   virtual std::vector<casedb::AttemptComment> list_comments(const std::string& attempt_id) = 0;
   virtual base::Result<void> add_comment(const std::string& person_id, const std::string& attempt_id, double at_s,
                                          const std::string& body) = 0;

@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace seldinger::web {
+
+class Jobs;
 
 struct Surroundings {
   std::function<std::int64_t()> now_us;                     // monotonic: sessions outlive no change of the clock
@@ -17,6 +20,7 @@ struct Surroundings {
   std::string program_version;
   // Under which name a reverse proxy that adds TLS serves these pages, "sim.example.org"; empty: there is none.
   std::string public_authority;
+  std::shared_ptr<Jobs> jobs{};  // nothing: long work is not done here
   int port = 0;  // cookies know no ports: their names tell ours from another program's on this machine
 };
 

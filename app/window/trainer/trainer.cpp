@@ -393,6 +393,7 @@ void Trainer::tell_conditions() {
   const casedb::ReplaysWatched watched =
       casedb::count_replays_watched(library_, account_.person_id, chosen_.case_id);
   attempt_->know([&](casedb::Conditions& conditions) {
+    conditions.station = station_;
     conditions.help_level = help_;
     conditions.expert_replays = watched.others;
     conditions.own_replays = watched.own;

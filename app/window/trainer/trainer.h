@@ -16,6 +16,7 @@
 #include "app/window/trainer/case_import.h"
 #include "app/window/trainer/case_thumbnails.h"
 #include "casedb/attempts/attempts.h"
+#include "casedb/attempts/stations.h"
 #include "casedb/cases/cases.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/grading/choices.h"
@@ -62,6 +63,7 @@ class Trainer {
 
   // Of what comes from now on.
   void set_pictures_by(session::PicturesBy by) noexcept { by_ = by; }
+  void set_station(std::string name) { station_ = std::move(name); }
 
   TrainerScreen screen() const noexcept { return screen_; }
   // Whoever logs in finds this case's briefing open at once (a mentor a draft in the case editor), or is told why
@@ -210,6 +212,7 @@ class Trainer {
   casedb::LoginDelays delays_;
   std::optional<Arms> arms_;
   session::PicturesBy by_ = session::PicturesBy::cpu;
+  std::string station_ = casedb::kUnnamedStation;
   TrainerScreen screen_ = TrainerScreen::log_in;
   std::string refusal_;
   casedb::Account account_;

@@ -170,22 +170,38 @@ void add_notes(Html& html, std::string_view title, const std::vector<casedb::Stu
   html.raw("</section>\n");
 }
 
+// A job of that kind (jobs_page.h).
+void add_job_form(Html& html, const Visitor& visitor, const StudyView& view, std::string_view kind,
+                  std::string_view button) {
+  html.raw("<form method=\"post\" action=\"/jobs\">\n<input type=\"hidden\" name=\"token\" value=\"");
+  html.text(visitor.form_token).raw("\">\n<input type=\"hidden\" name=\"kind\" value=\"").text(kind);
+  html.raw("\"><input type=\"hidden\" name=\"study\" value=\"").text(view.study.study_id);
+  html.raw("\">\n<p><button>").text(button).raw("</button></p>\n</form>\n");
+}
+
 void add_what_next(Html& html, const Visitor& visitor, const StudyView& view) {
   html.raw("<section>\n<h2>Report and export</h2>\n");
   if (view.plan) {
-    html.raw("<form method=\"post\" action=\"/studies/").text(view.study.study_id).raw("/report\">\n");
-    html.raw("<input type=\"hidden\" name=\"token\" value=\"")
-        .text(visitor.form_token)
-        .raw("\">\n<p class=\"note\">");
+    html.raw("<p class=\"note\">");
     html.text(view.plan->frozen()
                   ? "The report compares the groups: making it is a look, which is noted under your pseudonym."
                   : "Before the freeze the report holds the plan and counts of all together, and is no look.");
-    html.raw("</p>\n<p><button>Make the validity report</button></p>\n</form>\n");
+    html.raw("</p>\n");
+    add_job_form(html, visitor, view, "study_report", "Make the validity report");
+  }
+  if (!view.plan || view.plan->frozen()) {
+    html.raw("<p class=\"note\">");
+    if (view.plan) html.raw("The export tells outcomes by person: it is a look, too. ");
+    html.raw(
+        "It holds the attempts of those who consent, without names; their numbers have two significant "
+        "digits.</p>\n");
+    add_job_form(html, visitor, view, "study_export", "Export the attempts");
   }
   html.raw(
-      "<p class=\"why\">Attempts without names are exported with <code>seldinger export --study</code>, the plan "
-      "is "
-      "stored and frozen with <code>seldinger study plan</code> and <code>study freeze</code>.</p>\n</section>\n");
+      "<p class=\"why\">Recordings and exact numbers are exported with <code>seldinger export --study "
+      "--key</code>. The "
+      "plan is stored and frozen with <code>seldinger study plan</code> and <code>study freeze</code>.</p>\n"
+      "</section>\n");
 }
 
 }  // namespace

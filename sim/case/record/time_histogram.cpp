@@ -31,6 +31,12 @@ void TimeHistogram::add(std::uint64_t ns) noexcept {
   most_ns = std::max(most_ns, ns);
 }
 
+void TimeHistogram::add(const TimeHistogram& others) noexcept {
+  for (std::size_t bin = 0; bin < kBins; ++bin) counts[bin] += others.counts[bin];
+  n += others.n;
+  most_ns = std::max(most_ns, others.most_ns);
+}
+
 std::uint64_t TimeHistogram::quantile_ns(double share) const noexcept {
   if (n == 0) return 0;
   const auto rank = static_cast<std::uint64_t>(

@@ -16,6 +16,7 @@ struct TimeHistogram {
   std::uint64_t most_ns = 0;
 
   void add(std::uint64_t ns) noexcept;
+  void add(const TimeHistogram& others) noexcept;
   // The length that a share of all lengths (0 to 1) does not exceed: the bin's longest, at most most_ns. 0 of none.
   std::uint64_t quantile_ns(double share) const noexcept;
 

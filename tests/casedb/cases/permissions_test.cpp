@@ -60,6 +60,7 @@ constexpr Row kMatrix[] = {
     {"freeze_cut",                "",          "",                    "",                 "others'",   ""},
     {"see_cohort",                "",          "cohort",              "",                 "programme", ""},
     {"see_cohort_cells",          "",          "",                    "",                 "all",       ""},
+    {"see_station_use",           "",          "",                    "",                 "programme", ""},
     {"manage_cohorts",            "",          "",                    "",                 "programme", "all"},
     {"appoint_director",          "",          "",                    "",                 "",          "all"},
     {"manage_studies",            "",          "",                    "",                 "all",       "all"},
@@ -68,6 +69,7 @@ constexpr Row kMatrix[] = {
     {"enrol_in_study",            "",          "",                    "study",            "all",       "all"},
     {"manage_questionnaires",     "",          "all",                 "all",              "all",       "all"},
     {"see_responses",             "",          "own",                 "own|study",        "own",       ""},
+    {"run_job",                   "",          "own",                 "own",              "",          "own"},
     {"answer_consent",            "own",       "own",                 "own",              "own",       "own"},
     {"let_in_again",              "",          "",                    "",                 "",          "all"},
     {"erase_attempts",            "own",       "own",                 "own",              "own",       "all"},
@@ -76,6 +78,7 @@ constexpr Row kMatrix[] = {
     {"manage_accounts",           "",          "",                    "",                 "",          "all"},
     {"set_password",              "own",       "own",                 "own",              "own",       "all"},
     {"keep_library",              "",          "",                    "",                 "",          "all"},
+    {"see_station_timing",        "",          "",                    "",                 "",          "all"},
     {"read_audit",                "",          "",                    "",                 "",          "all"},
 };
 // clang-format on

@@ -2,7 +2,10 @@
 #include "casedb/grading/learning.h"
 
 #include <algorithm>
+#include <set>
 
+#include "casedb/database/audit.h"
+#include "casedb/database/sqlite.h"
 #include "tests/casedb/graded_library.h"
 
 namespace seldinger::casedb {
@@ -43,6 +46,26 @@ TEST_F(LearningTest, OfOnePersonIsTheirPartOfEverybodys) {
   EXPECT_EQ(toms[0].task.case_id, case_id_);
   EXPECT_EQ(toms[0].task.lesion_id, lesion_id_);
   EXPECT_TRUE(learning_attempts_of(library_, "nobody").empty());
+}
+
+TEST_F(LearningTest, TheMarkIsAnotherOneByWhatConcernsItAlone) {
+  const std::set<Act> concern = {Act::make_cohort,    Act::enrol,      Act::end_enrolment, Act::erase_person,
+                                 Act::erase_attempts, Act::erase_case, Act::recompute,     Act::repair,
+                                 Act::accept_damaged, Act::restore};
+  for (std::size_t i = 0; i < kActs; ++i) {
+    const Act act = static_cast<Act>(i);
+    const LearningMark before = learning_mark(library_);
+    Transaction transaction(library_.database());
+    audit(library_, act, {"person", "somebody"});
+    transaction.commit();
+    const LearningMark after = learning_mark(library_);
+    EXPECT_EQ(after.act != before.act, concern.contains(act)) << name_of(act);
+    EXPECT_EQ(after.attempts, before.attempts);
+  }
+  const LearningMark before = learning_mark(library_);
+  rule({"hit >= 1"});
+  attempt(user("Tom", Role::trainee), 1.0, 20.0);
+  EXPECT_NE(learning_mark(library_).attempts, before.attempts);
 }
 
 }  // namespace

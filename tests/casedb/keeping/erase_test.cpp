@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/versions.h"
@@ -92,6 +93,10 @@ TEST_F(EraseTest, NothingOfAPersonIsLeftInAnyFile) {
   ASSERT_TRUE(give_fact(*library_, zebedee_, "years_in_radiology", "13.5"));
   ASSERT_EQ(add_consent_text(*library_, std::nullopt, "May your attempts be used?").value(), 1);
   ASSERT_TRUE(give_consent(*library_, zebedee_, list_consents(*library_, zebedee_).at(0).text_id));
+  const std::filesystem::path jobs = folder_ / "library" / kJobsFolder;
+  for (const std::string& whose : {zebedee_, tim_})
+    std::filesystem::create_directories(jobs / whose / "a job" / "results");
+  std::ofstream(jobs / zebedee_ / "a job" / "results" / "export.csv") << kNote;
   const auto secrets = planted(attempt_id);
   ASSERT_GT(secrets.size(), 15U);
   // As a change of the schema leaves them.
@@ -113,6 +118,8 @@ TEST_F(EraseTest, NothingOfAPersonIsLeftInAnyFile) {
   EXPECT_EQ(erased->old_copies, 2U);
   EXPECT_TRUE(erased->overwritten);
   EXPECT_EQ(assets_named(library_->database()).size(), assets_before - 1);
+  EXPECT_FALSE(std::filesystem::exists(jobs / zebedee_));
+  EXPECT_TRUE(std::filesystem::exists(jobs / tim_)) << "of somebody else nothing goes";
   ASSERT_TRUE(back_up(*library_, folder_ / "backup", "0.1.0"));
   EXPECT_EQ(code(erase_person(*library_, kName, std::nullopt)), "no_user");
   library_.reset();

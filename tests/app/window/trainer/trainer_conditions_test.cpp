@@ -73,6 +73,7 @@ TEST_F(TrainerTest, TheConditionsOfAnAttemptAreKept) {
   EXPECT_EQ(kept.expert_replays, 0);
   EXPECT_EQ(kept.own_replays, 0);
   EXPECT_EQ(kept.begun_again, false);
+  EXPECT_EQ(kept.station, "this computer") << "nobody named it";
   EXPECT_EQ(kept.window_rate_hz, 59.5);
   EXPECT_EQ(kept.stereo, false);
   EXPECT_FALSE(kept.sound) << "nobody said";
