@@ -444,6 +444,11 @@ constexpr ErrorCode kImportCodes[] = {
     {"mirrored_geometry", kWarns | kRefuses,
      "A NIfTI header's sform mirrors its qform: refused where both are said to be the scanner's.",
      "Set the header right from the original series."},
+    {"bad_preparation", kRefuses,
+     "A CT cannot be prepared so: a value out of its bounds, or too few or too large voxels left.",
+     "Give values within what the message tells."},
+    {"prepared", kWarns, "The CT was prepared as asked: what was set, and how far that is from the CT as it came.",
+     ""},
     {"denoised", kWarns, "Anisotropic diffusion was asked for: the noise before and after.", ""},
     {"mixed_orientation", kWarns | kRefuses,
      "Pictures at 45° or more to the series: up to a quarter of it (a localizer, a reformat) are left out, more "

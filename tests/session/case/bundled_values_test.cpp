@@ -161,7 +161,7 @@ class BundledValues : public testing::Test {
         "PRAGMA defer_foreign_keys = ON; UPDATE training_case SET state = 'retired'; "
         "INSERT INTO erasing (id) SELECT case_id FROM training_case");
     for (const char* table : {"case_attribute", "case_warning", "case_dropped", "lesion", "structure",
-                              "case_label_map", "case_received", "training_case", "erasing"})
+                              "case_label_map", "case_preparation", "case_received", "training_case", "erasing"})
       database.run(std::string("DELETE FROM ") + table);
     transaction.commit();
   }
