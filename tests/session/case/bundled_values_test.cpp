@@ -73,6 +73,7 @@ class BundledValues : public testing::Test {
     made.attributes = {{"modality", "CT"}};
     made.warnings = {{"single_slice", "one slice only"}};
     made.dropped = {{"0010,0010", "PatientName", "not_on_the_list", 3}};
+    made.prepared = {{.denoise = 2.0}, made.volume};
     case_id_ = casedb::add_case(home_, made);
     add_authored(ball);
     ASSERT_TRUE(casedb::write_bundle(home_, {case_id_}, file_, "0.1.0").has_value());

@@ -345,14 +345,14 @@ void EditorPanel::draw_pictures(CaseEditor& editor, const Keys& keys, float wide
     return;
   }
   const auto made = editor.preparing().newest();
-  const EditorLook came{editor.preparing().original(), nullptr, "   as it came"},
-      prepared{made ? made->shown : nullptr, came.of, "   prepared; blue: the skin as it came"};
+  const EditorLook came{editor.preparing().original(), nullptr, "as it came"},
+      prepared{made ? made->shown : nullptr, came.of, "prepared; blue: the skin as it came"};
   planes_.draw(0, editor, came, keys, wide, high);
   ImGui::SameLine();
   ImGui::PushID("prepared");
   prepared_planes_.draw(0, editor, prepared, keys, wide, high);
   ImGui::PopID();
-  room_.draw(editor, {came.of, nullptr, "The skin of the CT as it came"}, wide, high);
+  came_room_.draw(editor, {came.of, nullptr, "The skin of the CT as it came"}, wide, high);
   ImGui::SameLine();
   ImGui::PushID("prepared");
   prepared_room_.draw(editor, {prepared.of, nullptr, "The skin as it is prepared"}, wide, high);
@@ -372,6 +372,7 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
     texts_.clear();
     setting_in_hand_ = form_in_hand_ = structure_in_hand_ = preparation_in_hand_ = false;
     prepared_planes_.begin();
+    came_room_.begin();
     prepared_room_.begin();
   }
   begin_screen("editor");
@@ -389,12 +390,16 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::SameLine();
   ImGui::BeginGroup();
   const float actions_px = scaled(150.0F);
-  begin_fields("tool", 0.0F, 0.5F * (all.y - actions_px));
+  // Checks are of what is stored: beside a CT that is prepared they say nothing.
+  const bool checks = editor.tool != EditorTool::prepare;
+  begin_fields("tool", 0.0F, checks ? 0.5F * (all.y - actions_px) : all.y - actions_px - 12.0F);
   draw_tool(editor);
   ImGui::EndChild();
-  begin_fields("checks", 0.0F, 0.5F * (all.y - actions_px) - 12.0F);
-  draw_checks(editor);
-  ImGui::EndChild();
+  if (checks) {
+    begin_fields("checks", 0.0F, 0.5F * (all.y - actions_px) - 12.0F);
+    draw_checks(editor);
+    ImGui::EndChild();
+  }
   begin_fields("actions", 0.0F, 0.0F);
   draw_actions(trainer);
   ImGui::EndChild();

@@ -105,7 +105,11 @@ bool number_field(const char* label, double& value, double step, const char* for
 class EditorPanel {
  public:
   explicit EditorPanel(gpu::Context& context)
-      : planes_(context), prepared_planes_(context), room_(context, camera_), prepared_room_(context, camera_) {}
+      : planes_(context),
+        prepared_planes_(context),
+        room_(context, camera_),
+        came_room_(context, skin_camera_),
+        prepared_room_(context, skin_camera_) {}
 
   void draw(Trainer& trainer, const Keys& keys);
   void end() noexcept { case_id_.clear(); }
@@ -138,9 +142,10 @@ class EditorPanel {
   void draw_preparation(CaseEditor& editor);
   static void draw_histogram(DraftPreparation& preparing, casedb::Preparation& settings, bool& in_hand);
 
-  EditorRoom::Camera camera_ = std::make_shared<std::optional<imaging::RoomCamera>>();
+  EditorRoom::Camera camera_ = std::make_shared<std::optional<imaging::RoomCamera>>(),
+                     skin_camera_ = std::make_shared<std::optional<imaging::RoomCamera>>();
   EditorPlanes planes_, prepared_planes_;
-  EditorRoom room_, prepared_room_;
+  EditorRoom room_, came_room_, prepared_room_;
   std::string case_id_;
   bool help_ = false;
   Question question_;

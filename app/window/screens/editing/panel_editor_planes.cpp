@@ -215,12 +215,13 @@ void EditorPlanes::draw_words(std::size_t plane, const CaseEditor& editor, const
   const float wide = static_cast<float>(size_px_.x), high = static_cast<float>(size_px_.y);
   char text[160];
   const glm::dvec3 normal = glm::abs(glm::cross(kind.u, kind.v));
-  std::snprintf(text, sizeof text, "%s  %c %.1f mm%s", kind.name,
+  std::snprintf(text, sizeof text, "%s  %c %.1f mm", kind.name,
                 normal.x > 0.5   ? 'x'
                 : normal.y > 0.5 ? 'y'
                                  : 'z',
-                glm::dot(normal, editor.view.cursor_lps_mm()), look_.caption);
+                glm::dot(normal, editor.view.cursor_lps_mm()));
   pen.words({corner.x + 6.0F, corner.y + 4.0F}, kWords, text);
+  if (*look_.caption != '\0') pen.words({corner.x + 6.0F, corner.y + scaled(24.0F)}, kWords, look_.caption);
   pen.words({corner.x + 6.0F, corner.y + 0.5F * high}, kWords, kind.left);
   pen.words({corner.x + wide - scaled(18.0F), corner.y + 0.5F * high}, kWords, kind.right);
   pen.words({corner.x + 0.5F * wide, corner.y + 4.0F}, kWords, kind.upper);

@@ -14,8 +14,9 @@ namespace {
 
 constexpr float kDegreesPerPixel = 0.3F, kRoomClickPx = 4.0F;
 constexpr float kSoftwareShare = 0.8F;  // as the attempt's room (panel_room)
-constexpr double kNearer = 0.65;        // than an operator stands: it is a small picture
-constexpr int kRoomHelp = 3;            // target, entry and way
+// Than an operator stands: it is a small picture; where skins are compared all of it shows.
+constexpr double kNearer = 0.65, kFarther = 1.5;
+constexpr int kRoomHelp = 3;  // target, entry and way
 
 // Whatever meshes of a stored case are made of; lesion and entry are drawn from the scene as it is.
 std::string made_of(const CaseEditor& editor) {
@@ -105,7 +106,7 @@ void EditorRoom::draw(CaseEditor& editor, EditorLook look, float width, float he
     *camera_ = imaging::room_camera(room_->scene, scene, looking, imaging::RoomView::operator_side);
     (*camera_)->eye_lps_mm += site - (*camera_)->target_lps_mm;
     (*camera_)->target_lps_mm = site;
-    imaging::zoom(**camera_, kNearer);
+    imaging::zoom(**camera_, stored(editor) ? kNearer : kFarther);
   }
   take_mouse(editor, width, height);
   imaging::RoomPicture asked;
