@@ -114,8 +114,8 @@ void EditorPanel::draw_top(Trainer& trainer) {
   ImGui::SameLine();
   const session::HuWindow& stands = editor.view.window;
   char window[64];
-  std::snprintf(window, sizeof window, "%s %.0f / %.0f", stands.name, stands.center_hu, stands.width_hu);
-  ImGui::SetNextItemWidth(scaled(180.0F));
+  std::snprintf(window, sizeof window, "%s %.0f/%.0f", stands.name, stands.center_hu, stands.width_hu);
+  ImGui::SetNextItemWidth(scaled(155.0F));
   if (ImGui::BeginCombo("##window", window)) {
     for (const session::HuWindow& one : session::kHuWindows)
       if (ImGui::Selectable(one.name, one.center_hu == stands.center_hu)) editor.view.window = one;
@@ -346,7 +346,7 @@ void EditorPanel::draw_pictures(CaseEditor& editor, const Keys& keys, float wide
   }
   const auto made = editor.preparing().newest();
   const EditorLook came{editor.preparing().original(), nullptr, "as it came"},
-      prepared{made ? made->shown : nullptr, came.of, "prepared; blue: the skin as it came"};
+      prepared{made ? made->shown : nullptr, came.of, "prepared; blue: as it came"};
   planes_.draw(0, editor, came, keys, wide, high);
   ImGui::SameLine();
   ImGui::PushID("prepared");
