@@ -1,7 +1,10 @@
 // import, sample.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <iterator>
 
 #include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
@@ -44,8 +47,10 @@ std::optional<volume::PhantomOptions> built_in_of(const Arguments& arguments, ca
       throw UsageError("--body and --calyces go with --built-in");
     return std::nullopt;
   }
-  for (const char* of_a_source : {"--series", "--face", "--reason", "--denoise", "--large", "--no-burned-in-text"})
+  for (const char* of_a_source : {"--series", "--face", "--reason", "--large", "--no-burned-in-text"})
     if (arguments.has(of_a_source)) throw UsageError(std::string(of_a_source) + " is of a SOURCE");
+  for (const casedb::PreparationRow& row : casedb::kPreparationRows)
+    if (arguments.has(row.option)) throw UsageError(std::string(row.option) + " is of a SOURCE");
   volume::PhantomOptions options;
   options.region = named_option(arguments, "--built-in", volume::kRegionNames);
   options.body = named_option(arguments, "--body", volume::kBodyNames);
@@ -57,6 +62,13 @@ std::optional<volume::PhantomOptions> built_in_of(const Arguments& arguments, ca
   else if (position != cases::PatientPosition::supine)
     throw UsageError("a built-in patient lies supine or prone");
   return options;
+}
+
+casedb::Preparation preparation_of(const Arguments& arguments) {
+  casedb::Preparation preparation;
+  for (const casedb::PreparationRow& row : casedb::kPreparationRows)
+    preparation.*row.value = arguments.number(row.option, preparation.*row.value);
+  return preparation;
 }
 
 int run_import(const Arguments& arguments) {
@@ -90,7 +102,7 @@ int run_import(const Arguments& arguments) {
   }
   auto imported = built_in ? import_phantom(*built_in, arguments.text("--title"))
                            : import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"),
-                                         "import", face, arguments.has("--denoise"), arguments.has("--large"));
+                                         "import", face, arguments.has("--large"), preparation_of(arguments));
   if (!imported)
     return refuse(built_in ? imported.error() : error_of("SOURCE", arguments.positional(0), imported.error()));
   if (!built_in) imported->no_burned_in_text = arguments.has("--no-burned-in-text");
@@ -204,7 +216,7 @@ int run_case_confirm(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kImportOptions[] = {
+constexpr Option kBeforePreparation[] = {
     kLibrary,
     {"--built-in", "torso|groin|neck",
      "in place of SOURCE: the built-in patient, made by formulas, no person's CT"},
@@ -216,10 +228,19 @@ constexpr Option kImportOptions[] = {
     {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
     kFaceOrOverrule,
     kReason,
-    {"--denoise", nullptr, "takes noise out of a noisy CT, edges kept (docs/decisions/0021)"},
+};
+constexpr Option kAfterPreparation[] = {
     {"--large", nullptr, "takes a file whose voxels are more than 4 GiB unpacked, up to 8"},
     {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
     kJson};
+constexpr auto kImportOptions = [] {
+  std::array<Option, std::size(kBeforePreparation) + casedb::kPreparationRows.size() + std::size(kAfterPreparation)>
+      options{};
+  auto next = std::copy(std::begin(kBeforePreparation), std::end(kBeforePreparation), options.begin());
+  for (const casedb::PreparationRow& row : casedb::kPreparationRows) *next++ = {row.option, row.what, row.help};
+  std::copy(std::begin(kAfterPreparation), std::end(kAfterPreparation), next);
+  return options;
+}();
 
 constexpr Option kConfirmOptions[] = {
     kLibrary, {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"}};

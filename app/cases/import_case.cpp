@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -11,9 +13,8 @@
 #include "casedb/cases/authoring.h"
 #include "casedb/export/dicom_series.h"
 #include "casedb/import/ct_rules.h"
-#include "casedb/import/diffusion.h"
 #include "casedb/import/import.h"
-#include "casedb/import/skin/surface.h"
+#include "casedb/import/prepare.h"
 #include "sim/base/failure.h"
 #include "sim/volume/phantom.h"
 
@@ -80,8 +81,8 @@ FaceWish face_of(const Arguments& arguments) {
 
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin, const FaceWish& face, bool denoise,
-                                          bool large) {
+                                          const std::string& origin, const FaceWish& face, bool large,
+                                          const casedb::Preparation& preparation) {
   if (!title.empty())
     if (const auto fit = casedb::check_case_title(title); !fit) return fit.error();
   progress("reading the volume");
@@ -92,22 +93,27 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
       face.choice == casedb::FaceChoice::overrule && casedb::find_face(read->volume, read->says_head).found;
   const auto face_state = casedb::settle_face(read->volume, face.choice, read->says_head);
   if (!face_state) return casedb::with_doubted_hu(face_state.error(), *read);
-  if (denoise) {
-    progress("taking noise away");
-    read->warnings.push_back(casedb::denoise(read->volume));
-  }
-  progress("making the skin");
-  auto skin = casedb::skin_surface(read->volume);
-  if (!skin) return casedb::with_doubted_hu(skin.error(), *read);
-  if (auto cut = casedb::cut_body(*skin, read->volume)) read->warnings.push_back(std::move(*cut));
   casedb::NewCase made;
-  const glm::ivec3 size = read->volume.size_voxels;
+  const bool prepares = preparation != casedb::Preparation{};
+  if (prepares) made.prepared = {preparation, read->volume};
+  progress(prepares ? "preparing volume and skin" : "making the skin");
+  auto prepared = casedb::prepare(std::move(read->volume), preparation);
+  if (!prepared) return casedb::with_doubted_hu(prepared.error(), *read);
+  std::move(prepared->warnings.begin(), prepared->warnings.end(), std::back_inserter(read->warnings));
+  if (prepares) {
+    progress("comparing it with the CT as it came");
+    const auto full = casedb::full_surface(made.prepared->original, preparation.skin_hu);
+    if (!full) return casedb::with_doubted_hu(full.error(), *read);
+    read->warnings.push_back(
+        casedb::told_of(preparation, *prepared, casedb::fidelity_of(made.prepared->original, *full, *prepared)));
+  }
+  const glm::ivec3 size = prepared->volume.size_voxels;
   made.title = !title.empty() ? title
                               : "CT, " + std::to_string(size.x) + " x " + std::to_string(size.y) + " x " +
                                     std::to_string(size.z);
   made.origin = origin;
-  made.volume = std::move(read->volume);
-  made.skin = std::move(*skin);
+  made.volume = std::move(prepared->volume);
+  made.skin = std::move(prepared->skin);
   made.attributes = std::move(read->attributes);
   made.warnings = std::move(read->warnings);
   made.slices_used = read->slices_used;

@@ -39,8 +39,8 @@ FaceWish face_of(const Arguments& arguments);
 // when it is a terminal.
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin, const FaceWish& face = {},
-                                          bool denoise = false, bool large = false);
+                                          const std::string& origin, const FaceWish& face = {}, bool large = false,
+                                          const casedb::Preparation& preparation = {});
 
 // A built-in patient: the phantom written as a DICOM series to a temporary folder and imported like any patient;
 // prone where it lies prone. Without a title it is named after what it is.

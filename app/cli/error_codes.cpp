@@ -452,6 +452,11 @@ constexpr ErrorCode kImportCodes[] = {
     {"mirrored_geometry", kWarns | kRefuses,
      "A NIfTI header's sform mirrors its qform: refused where both are said to be the scanner's.",
      "Set the header right from the original series."},
+    {"bad_preparation", kRefuses,
+     "A CT cannot be prepared so: a value out of its bounds, or too few or too large voxels left.",
+     "Give values within what the message tells."},
+    {"prepared", kWarns, "The CT was prepared as asked: what was set, and how far that is from the CT as it came.",
+     ""},
     {"denoised", kWarns, "Anisotropic diffusion was asked for: the noise before and after.", ""},
     {"mixed_orientation", kWarns | kRefuses,
      "Pictures at 45° or more to the series: up to a quarter of it (a localizer, a reformat) are left out, more "
@@ -562,45 +567,10 @@ constexpr ErrorCodeSection kSections[] = {{"Calls", kCallCodes},
                                           {"Import", kImportCodes},
                                           {"Serving and the environment", kEnvironmentCodes}};
 
-std::string words_of(unsigned kinds) {
-  std::string words;
-  const auto add = [&](unsigned kind, const char* word) {
-    if ((kinds & kind) != 0) words += (words.empty() ? "" : ", ") + std::string(word);
-  };
-  add(kWarns, "warning");
-  add(kFinds, "1");
-  add(kMisused, "2");
-  add(kRefuses, "3");
-  add(kFails, "4");
-  return words;
-}
-
 }  // namespace
 
 std::span<const ErrorCodeSection> error_codes() {
   return kSections;
-}
-
-std::string errors_markdown() {
-  std::string text =
-      "# Error codes\n\nMade from the table in `app/cli/error_codes.cpp` by `seldinger help --errors`; a test "
-      "compares.\n"
-      "An error is one line `error: CODE: text` on standard error; further reasons follow as `finding: CODE: "
-      "text`. With `--json` standard output holds `{\"error\": {\"code\", \"text\"}}`, with `findings` where there "
-      "are any. "
-      "Warnings are kept with the case. Codes are stable, texts are not: match on codes. No text holds patient "
-      "data.\n\n"
-      "Exit: 1 a check ran and found this · 2 wrong use · 3 the input is refused, nothing is changed · 4 the "
-      "environment fails · "
-      "warning: nothing is refused.\n";
-  for (const ErrorCodeSection& section : error_codes()) {
-    text += "\n## " + std::string(section.title) +
-            "\n\n| code | exit | what it means | what to do |\n|---|---|---|---|\n";
-    for (const ErrorCode& one : section.codes)
-      text += "| `" + std::string(one.code) + "` | " + words_of(one.kinds) + " | " + one.meaning + " | " +
-              (*one.remedy == '\0' ? "–" : one.remedy) + " |\n";
-  }
-  return text;
 }
 
 }  // namespace seldinger::app

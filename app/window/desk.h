@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "app/window/screens/answering/panel_answering.h"
+#include "app/window/screens/editing/panel_editor.h"
 #include "app/window/screens/panel_attempt.h"
 #include "app/window/screens/panel_debrief.h"
 #include "app/window/screens/panel_device.h"
-#include "app/window/screens/panel_editor.h"
 #include "app/window/screens/panel_watch.h"
 #include "app/window/screens/panels.h"
 #include "app/window/sound/speaker.h"

@@ -27,6 +27,14 @@ std::optional<std::vector<StructureRow>> read_structures(Sqlite& database, const
 base::Result<std::vector<volume::TissueClass>> load_classes(const LoadAsset& load, const CaseRow& row);
 std::vector<std::string> label_map_names(Sqlite& database, const CaseRow& row);  // the case's own first
 
+// What of a case is its volume: the grid, the extremes, the files made of it.
+struct CaseData {
+  const volume::Volume& volume;
+  std::string volume_sha256, skin_sha256, classes_sha256;
+};
+std::vector<std::string> data_columns();
+void bind_data(Statement& statement, const CaseData& data);
+
 // 1 to 100 bytes on one line, no space at its ends.
 bool is_sound_name(const std::string& name);
 // As check_case_title takes it: controls and spaces at the ends away, cut to what a title holds. Cases of before

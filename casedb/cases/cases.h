@@ -11,6 +11,7 @@
 
 #include "casedb/cases/case_setting.h"
 #include "casedb/cases/case_state.h"
+#include "casedb/cases/preparation.h"
 #include "casedb/cases/privacy.h"
 #include "casedb/database/library.h"
 #include "sim/base/result.h"
@@ -29,6 +30,12 @@ std::string modality_names();
 std::string name_of(cases::PatientPosition position);
 std::optional<cases::PatientPosition> position_from(const std::string& name);
 
+// How a case's volume and skin were made of the CT as it came.
+struct PreparedFrom {
+  Preparation settings;
+  volume::Volume original;
+};
+
 struct NewCase : CaseSetting {
   std::string title;   // never from the source
   std::string origin;  // "import" or "phantom:<version>"
@@ -45,6 +52,7 @@ struct NewCase : CaseSetting {
   bool no_burned_in_text = false;                   // somebody looked
   std::optional<std::string> burned_in_checked_by;  // person_id, when it was a person of this library
   std::vector<Dropped> dropped;
+  std::optional<PreparedFrom> prepared;  // nothing: volume and skin are as the CT came
 };
 
 struct CaseRow : CaseSetting {

@@ -219,6 +219,8 @@ bool rows_are_sound(Sqlite& database, const std::string& case_id) {
   if (found.size() != 1) return false;
   const CaseRow& row = found.front();
   if (!check_case_title(row.title) || !is_sound_grid(row) || !check_setting(row)) return false;
+  if (const auto prepared = find_preparation(database, case_id); prepared && !check_preparation(prepared->settings))
+    return false;
   for (const LesionRow& lesion : read_lesions(database, case_id)) {
     const double radius_mm = radius_of(lesion.form);
     if (!is_sound_lesion(row, lesion.form) || !(std::abs(lesion.lesion.radius_mm / radius_mm - 1.0) <= 1e-6))

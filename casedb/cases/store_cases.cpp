@@ -28,30 +28,19 @@ std::string matrix_column(int row, int column) {
 }
 
 void insert_case(Library& library, const NewCase& new_case, const std::string& case_id, std::int64_t created_us,
-                 const std::string& volume_sha256, const std::string& skin_sha256,
-                 const std::optional<std::string>& labels_sha256, const std::string& classes_sha256) {
+                 const std::optional<std::string>& labels_sha256, const CaseData& data) {
   Sqlite& database = library.database();
   const bool by_operator = library.actor().is_operator();
-  const volume::Volume& volume = new_case.volume;
-  const auto [lowest, highest] = std::minmax_element(volume.hu.begin(), volume.hu.end());
   Statement insert = question(database, "add_case");
   insert.bind("case_id", case_id).bind("title", new_case.title).bind("state", name_of(CaseState::draft));
   insert.bind("origin", new_case.origin).bind("created_us", created_us).bind("slices_used", new_case.slices_used);
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = kAxes[axis];
-    insert.bind("size_" + name + "_voxels", volume.size_voxels[axis]);
-    insert.bind("spacing_" + name + "_mm", volume.spacing_mm[axis]);
-    for (int column = 0; column < 4; ++column)
-      insert.bind(matrix_column(axis, column), volume.lps_from_voxel[column][axis]);
-  }
-  insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
-  insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
+  bind_data(insert, data);
   insert.bind("face_state", name_of(new_case.face_state));
   insert.bind("burned_in_checked_us", new_case.no_burned_in_text ? std::optional(created_us) : std::nullopt);
   insert.bind("burned_in_checked_by", new_case.burned_in_checked_by);
   insert.bind("burned_in_by_operator", by_operator && new_case.no_burned_in_text ? std::optional(1) : std::nullopt);
   insert.bind_null("family_id").bind("version", 1);
-  insert.bind("labels_sha256", labels_sha256).bind("classes_sha256", classes_sha256).run();
+  insert.bind("labels_sha256", labels_sha256).run();
   write_setting(database, case_id, new_case);
 
   Statement attribute = question(database, "add_case_attribute");
@@ -173,6 +162,30 @@ void insert_lesion(Sqlite& database, const LesionRow& lesion) {
 
 }  // namespace
 
+std::vector<std::string> data_columns() {
+  std::vector<std::string> columns = {"hu_min", "hu_max", "volume_sha256", "skin_sha256", "classes_sha256"};
+  const GridColumns names;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    columns.insert(columns.end(), {names.size[axis], names.spacing[axis]});
+    columns.insert(columns.end(), std::begin(names.matrix[axis]), std::end(names.matrix[axis]));
+  }
+  return columns;
+}
+
+void bind_data(Statement& statement, const CaseData& data) {
+  const GridColumns names;
+  for (int axis = 0; axis < 3; ++axis) {
+    statement.bind(names.size[axis], data.volume.size_voxels[axis]);
+    statement.bind(names.spacing[axis], data.volume.spacing_mm[axis]);
+    for (int column = 0; column < 4; ++column)
+      statement.bind(names.matrix[axis][column], data.volume.lps_from_voxel[column][axis]);
+  }
+  const auto [lowest, highest] = std::minmax_element(data.volume.hu.begin(), data.volume.hu.end());
+  statement.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
+  statement.bind("volume_sha256", data.volume_sha256).bind("skin_sha256", data.skin_sha256);
+  statement.bind("classes_sha256", data.classes_sha256);
+}
+
 std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id) {
   std::vector<CaseRow> rows = read_heads(database, case_id);
   std::unordered_map<std::string, std::size_t> place;
@@ -234,6 +247,8 @@ std::string add_case(Library& library, const NewCase& new_case) {
   const std::string skin_sha256 = assets.add(cases::bytes_from_mesh(new_case.skin));
   std::optional<std::string> labels_sha256;
   if (new_case.labels) labels_sha256 = assets.add(volume::bytes_from_labels(*new_case.labels));
+  std::string original_sha256;
+  if (new_case.prepared) original_sha256 = assets.add(volume::bytes_from_volume(new_case.prepared->original));
   const std::string classes_sha256 = assets.add(
       volume::bytes_from_classes(volume::tissue_classes(volume, new_case.labels ? &*new_case.labels : nullptr)));
 
@@ -241,7 +256,10 @@ std::string add_case(Library& library, const NewCase& new_case) {
   assets.make_sure();
   const std::int64_t created_us = now_us();
   const std::string case_id = new_uuid();
-  insert_case(library, new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256, classes_sha256);
+  insert_case(library, new_case, case_id, created_us, labels_sha256,
+              {volume, volume_sha256, skin_sha256, classes_sha256});
+  if (new_case.prepared)
+    add_preparation(library.database(), case_id, {new_case.prepared->settings, original_sha256});
   audit(library, Act::add_case, {"case", case_id});
   if (new_case.burned_in_checked_by) audit(library, Act::confirm_no_burned_in_text, {"case", case_id});
   if (!new_case.face_overruled.empty()) audit(library, Act::overrule_face, {"case", case_id});

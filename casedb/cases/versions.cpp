@@ -9,11 +9,14 @@
 #include "casedb/cases/permissions.h"
 #include "casedb/cases/setting_columns.h"
 #include "casedb/database/audit.h"
+#include "casedb/database/new_assets.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/tables.h"
 #include "casedb/database/uuid.h"
 #include "sim/base/check.h"
+#include "sim/volume/tissue/find_tissue.h"
+#include "sim/volume/volume_bytes.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -101,13 +104,22 @@ base::Result<void> check_burned_in(const CaseRow& row) {
   return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
 }
 
-constexpr std::string_view kNewestSightLaw = "'echo'";
+constexpr const char* kNewestSightLaw = "'echo'";
 
 enum class Copy { next_version, duplicate };
 
+// A volume and skin that a copy gets in place of those of the case.
+struct CopyData {
+  CaseData data;
+  StoredPreparation preparation;
+  const std::vector<base::Problem>& warnings;
+  NewAssets& assets;
+};
+
 // The row of a case and of what belongs to it alone, as they are; columns of later migrations come along.
-void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id, Copy copy_as) {
-  using Column = std::pair<std::string_view, std::string_view>;
+void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id, Copy copy_as,
+               const CopyData* other) {
+  using Column = std::pair<std::string, std::string>;
   std::vector<Column> own = {{"case_id", ":case_id"},
                              {"state", "'draft'"},
                              {"audience", "'everyone'"},
@@ -123,8 +135,11 @@ void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id
          {"version",
           "(SELECT max(one.version) + 1 FROM training_case AS one WHERE coalesce(one.family_id, one.case_id) "
           "= coalesce(training_case.family_id, training_case.case_id))"}});
+  if (other != nullptr)
+    for (const std::string& column : data_columns()) own.emplace_back(column, ":" + column);
   for (const TravellingTable& table : travelling_tables()) {
     if (table.name == "lesion" || table.name == "structure") continue;  // these have ids of their own
+    if (other != nullptr && table.name == "case_preparation") continue;
     const bool is_case = table.name == "training_case";
     std::string columns, values;
     for (const std::string& column : columns_of(database, table.name)) {
@@ -136,7 +151,7 @@ void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id
         values += ", ";
       }
       columns += column;
-      values += replaced ? found->second : std::string_view(column);
+      values += replaced ? found->second : column;
     }
     if (columns.empty()) continue;
     Statement copy =
@@ -145,8 +160,15 @@ void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id
     copy.bind("case_id", case_id).bind("from_case_id", from.case_id);
     if (is_case) copy.bind("created_us", now_us());
     if (is_case && duplicates) copy.bind("title", fitted_title("Copy of " + from.title));
+    if (is_case && other != nullptr) bind_data(copy, other->data);
     copy.run();
   }
+  if (other == nullptr) return;
+  add_preparation(database, case_id, other->preparation);
+  question(database, "remove_preparation_warnings").bind("case_id", case_id).run();
+  Statement warning = question(database, "add_later_warning");
+  for (const base::Problem& one : other->warnings)
+    warning.bind("case_id", case_id).bind("code", one.code).bind("text", one.text).run();
 }
 
 }  // namespace
@@ -272,7 +294,7 @@ base::Result<void> try_to_retire(Library& library, const std::string& case_id, c
 }
 
 base::Result<std::string> try_to_copy(Library& library, const std::string& case_id, const std::string& by,
-                                      Copy copy_as) {
+                                      Copy copy_as, const CopyData* other = nullptr) {
   Transaction transaction(library.database());
   auto wanted = wish(library, case_id, by, {});
   if (!wanted) return wanted.error();
@@ -281,7 +303,12 @@ base::Result<std::string> try_to_copy(Library& library, const std::string& case_
   const auto lesions = list_lesions(library, case_id);
   const auto structures = list_structures(library, case_id);
   const std::string made = new_uuid();
-  copy_case(database, wanted->row, made, copy_as);
+  if (other != nullptr) other->assets.make_sure();
+  copy_case(database, wanted->row, made, copy_as, other);
+  const CaseRow row = read_cases(database, made).at(0);
+  for (const LesionRow& lesion : lesions)
+    if (!is_sound_lesion(row, lesion.form))
+      return base::Error{"bad_preparation", "a lesion of the case would lie outside what is left of the CT"};
   for (const LesionRow& lesion : lesions)
     question(database, "copy_lesion")
         .bind("case_id", made)
@@ -326,6 +353,38 @@ base::Result<void> retire_case(Library& library, const std::string& case_id, con
 
 base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by) {
   return kept(library, DecisionKind::made, case_id, try_to_copy(library, case_id, by, Copy::next_version));
+}
+
+base::Result<std::string> add_prepared_copy(Library& library, const std::string& case_id,
+                                            const PreparedCopy& prepared, const std::string& by) {
+  const auto from = find_case(library, case_id);
+  if (!from) return from.error();
+  const bool same_grid = from->size_voxels == prepared.volume.size_voxels;
+  std::optional<volume::LabelMap> labels;
+  if (!from->labels_sha256.empty()) {
+    auto loaded = load_labels(library, *from);
+    if (!loaded) return loaded.error();
+    labels = std::move(*loaded);
+  }
+  const auto has_maps = [&] {
+    return labels || question(library.database(), "label_maps_of_case").bind("case_id", case_id).step();
+  };
+  if (!same_grid && has_maps())
+    return base::Error{"bad_preparation", "a case with label maps is not shrunk: they are of its voxels"};
+  const auto before = find_preparation(library.database(), case_id);
+  NewAssets assets(library);
+  const std::string volume_sha256 = assets.add(volume::bytes_from_volume(prepared.volume)),
+                    skin_sha256 = assets.add(cases::bytes_from_mesh(prepared.skin)),
+                    classes_sha256 = assets.add(volume::bytes_from_classes(
+                        volume::tissue_classes(prepared.volume, labels ? &*labels : nullptr)));
+  const CopyData other{{prepared.volume, volume_sha256, skin_sha256, classes_sha256},
+                       {prepared.settings, before ? before->original_sha256 : from->volume_sha256},
+                       prepared.warnings,
+                       assets};
+  const auto made =
+      kept(library, DecisionKind::made, case_id, try_to_copy(library, case_id, by, Copy::duplicate, &other));
+  if (made) assets.keep();
+  return made;
 }
 
 base::Result<std::string> duplicate_case(Library& library, const std::string& case_id, const std::string& by) {

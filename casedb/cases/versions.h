@@ -53,6 +53,18 @@ base::Result<void> retire_case(Library& library, const std::string& case_id, con
 // A draft like the case in all of that, but a case of its own, "Copy of …". By a mentor. Answers its id.
 base::Result<std::string> duplicate_case(Library& library, const std::string& case_id, const std::string& by);
 
+// What a CT became (casedb/import/prepare.h), and what is told of that in place of earlier such warnings.
+struct PreparedCopy {
+  volume::Volume volume;
+  cases::Mesh skin;
+  Preparation settings;
+  std::vector<base::Problem> warnings;
+};
+// The same with another preparation of its CT; lesions, structures and setting come along. `bad_preparation`: a
+// case with label maps is shrunk, or a lesion would lie outside what is left.
+base::Result<std::string> add_prepared_copy(Library& library, const std::string& case_id,
+                                            const PreparedCopy& prepared, const std::string& by);
+
 // A draft like the case, with lesions, structures and label maps of the same files, the next version of its family.
 // By a mentor. Answers its id.
 base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by);

@@ -18,9 +18,9 @@ constexpr std::array<std::string_view, 7> kChanging{"title",
                                                     "burned_in_checked_by"};
 
 constexpr TravellingTable kTravelling[] = {
-    {"training_case", kOfCase, kChanging}, {"case_attribute", kOfCase, {}}, {"case_warning", kOfCase, {}},
-    {"case_dropped", kOfCase, {}},         {"lesion", kOfCase, {}},         {"structure", kOfCase, {}},
-    {"case_label_map", kOfCase, {}},
+    {"training_case", kOfCase, kChanging}, {"case_attribute", kOfCase, {}},   {"case_warning", kOfCase, {}},
+    {"case_dropped", kOfCase, {}},         {"lesion", kOfCase, {}},           {"structure", kOfCase, {}},
+    {"case_label_map", kOfCase, {}},       {"case_preparation", kOfCase, {}},
 };
 constexpr std::string_view kStaying[] = {"person",
                                          "account",

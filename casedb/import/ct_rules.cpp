@@ -13,9 +13,9 @@ namespace {
 
 // Air is −1000 HU and fat −50 to −150: what has nothing below −200 HU shows no air.
 constexpr int kAirBelowHu = -200;
-// Diagnostic CT is reconstructed at 10 mm and less. Targets trained on are 5 to 20 mm: one could lie between two
-// slices of 30 mm, and the skin between them is a guess.
-constexpr double kThickMm = 10.0, kTooThickMm = 30.0;
+// Targets trained on are 5 to 20 mm: one could lie between two slices of 30 mm, and the skin between them is a
+// guess.
+constexpr double kTooThickMm = 30.0;
 
 bool has_warning(const Source& source, const char* code) {
   return std::any_of(source.warnings.begin(), source.warnings.end(),

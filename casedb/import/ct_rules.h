@@ -12,6 +12,9 @@
 
 namespace seldinger::casedb {
 
+// Diagnostic CT is reconstructed at 10 mm and less.
+constexpr double kThickMm = 10.0;
+
 enum class CtVerdict { warns, refuses };
 
 struct CtRule {

@@ -63,9 +63,9 @@ volume::Volume diffused(const volume::Volume& volume, const DiffusionOptions& op
   return made;
 }
 
-base::Problem denoise(volume::Volume& volume) {
+base::Problem denoise(volume::Volume& volume, int iterations) {
   const double before_hu = noise_sd_hu(volume);
-  volume = diffused(volume);
+  volume = diffused(volume, {.iterations = iterations});
   char text[128];
   std::snprintf(text, sizeof text, "asked for: anisotropic diffusion took noise from %.1f to %.1f HU", before_hu,
                 noise_sd_hu(volume));

@@ -23,7 +23,7 @@ double noise_sd_hu(const volume::Volume& volume);
 // The volume with what it holds diffused; HU below −1024 do not arise. Takes 8 bytes a voxel on top.
 volume::Volume diffused(const volume::Volume& volume, const DiffusionOptions& options = {});
 
-// Diffuses it in place; what a mentor is told of that, `denoised`.
-base::Problem denoise(volume::Volume& volume);
+// Diffuses it in place so many times; what a mentor is told of that, `denoised`.
+base::Problem denoise(volume::Volume& volume, int iterations);
 
 }  // namespace seldinger::casedb

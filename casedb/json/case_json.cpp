@@ -61,6 +61,7 @@ CaseParts load_parts(Library& library, CaseRow row) {
   parts.structures = list_structures(library, row.case_id);
   parts.decisions = list_decisions(library, row.case_id);
   parts.received = find_received(library, row.case_id);
+  if (const auto stored = find_preparation(library.database(), row.case_id)) parts.preparation = stored->settings;
   parts.provisional = !has_standard(library, row);
   parts.row = std::move(row);
   return parts;
@@ -119,6 +120,13 @@ Json json_of_received(const std::optional<Received>& received) {
             {"burned_in_checked_us", maybe(received->burned_in_checked_us)}}}};
 }
 
+Json json_of_preparation(const std::optional<Preparation>& preparation) {
+  if (!preparation) return nullptr;
+  Json json = Json::object();
+  for (const PreparationRow& row : kPreparationRows) json[row.name] = (*preparation).*row.value;
+  return json;
+}
+
 void add_authoring(const CaseParts& parts, Json& json) {
   const CaseRow& row = parts.row;
   Json structures = Json::array(), decisions = Json::array();
@@ -138,6 +146,7 @@ void add_authoring(const CaseParts& parts, Json& json) {
   json["received"] = json_of_received(parts.received);
   add_setting(row, json);
   json["provisional"] = parts.provisional;
+  json["preparation"] = json_of_preparation(parts.preparation);
   json["structures"] = structures;
 }
 

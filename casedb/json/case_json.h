@@ -18,8 +18,9 @@ struct CaseParts {
   std::vector<LesionRow> lesions;
   std::vector<StructureRow> structures;
   std::vector<Decision> decisions;
-  std::optional<Received> received{};  // it came in a bundle
-  bool provisional = true;             // too few consultants have set the standard
+  std::optional<Received> received{};        // it came in a bundle
+  std::optional<Preparation> preparation{};  // nothing: as its CT came
+  bool provisional = true;                   // too few consultants have set the standard
   // Of passing cases of the library, by what people did; none: nobody asked (casedb/grading/dependability.h).
   std::optional<assessment::statistics::Answer> dependability{};
 };
@@ -30,6 +31,7 @@ nlohmann::ordered_json json_of_lesion(const LesionRow& lesion);
 nlohmann::ordered_json json_of_structure(const StructureRow& structure);
 nlohmann::ordered_json json_of_rule_of(const assessment::PassRule& rule);
 nlohmann::ordered_json json_of_received(const std::optional<Received>& received);
+nlohmann::ordered_json json_of_preparation(const std::optional<Preparation>& preparation);
 // Fields of the setting, the version, who decided (by pseudonym) and where it came from are added to `json`.
 void add_authoring(const CaseParts& parts, nlohmann::ordered_json& json);
 

@@ -142,6 +142,14 @@ base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::st
     const auto skin = cases::mesh_from_bytes(*bytes);
     if (!skin || skin->triangles.empty()) return kDamaged;
   }
+  if (const auto prepared = find_preparation(rows, case_id)) {
+    const BundledAsset& original = *assets.at(prepared->original_sha256);
+    const auto bytes = read_asset(file, original);
+    if (!bytes) return bytes.error();
+    const std::uint64_t stored = volume::stored_voxels(*bytes);
+    if (stored > volume::kMaxVoxels || !plausible(stored * sizeof(std::int16_t), original.bytes)) return kTooLarge;
+    if (!volume::volume_from_bytes(*bytes)) return kDamaged;
+  }
   if (!row.is_null("labels_sha256")) {
     const auto bytes = read_asset(file, *asset("labels_sha256"));
     if (!bytes) return bytes.error();

@@ -287,7 +287,7 @@ TEST_F(NoIdentifier, SomebodyWhoMayConfirmsThatNoTextIsBurnedIn) {
   ASSERT_EQ(by_olga.exit_code, 0) << by_olga.err;
   EXPECT_TRUE(Json::parse(by_olga.out).at("burned_in_checked").at("person_id").is_string());
   EXPECT_EQ(by_olga.out.find("olga"), std::string::npos);
-  const Json later = Json::parse(import(" --denoise").out);
+  const Json later = Json::parse(import(" --denoise 5").out);
   EXPECT_TRUE(later.at("burned_in_checked").is_null());
   const auto& warnings = later.at("warnings");
   EXPECT_TRUE(

@@ -188,5 +188,57 @@ TEST_F(TrainEditorTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
   EXPECT_EQ(cases(), before - 1);
 }
 
+// The skin's value is dragged in the histogram and a number typed; what that costs is told, and it becomes a draft
+// of its own that the command line shows as it was prepared.
+TEST_F(TrainEditorTest, AMentorPreparesTheCtBesideTheOriginal) {
+  sit_down({"--case", case_id_});
+  ASSERT_FALSE(HasFailure());
+  const fixtures::Screen& screen = mentor_->screen();
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword, "editor"));
+  const auto prepared = [&] { return editor().value("prepared", Json::object()); };
+  const auto becomes = [&](const std::string& settings) {
+    return fixtures::until([&] { return prepared().value("settings", "none") == settings; }, 120.0);
+  };
+  ASSERT_TRUE(fixtures::until([&] { return editor().contains("cursor_lps_mm"); }));
+  mentor_->press("p");
+  ASSERT_TRUE(becomes("")) << mentor_->now();
+  const std::size_t triangles = prepared().at("triangles");
+  mentor_->place_of("room");
+  mentor_->place_of("room#2");
+  mentor_->keep_picture();
+  const fixtures::Place histogram = mentor_->place_of("histogram");
+  const auto x_of = [&](double hu) { return histogram.at((hu + 1024.0) / 3024.0, 0.5).first; };
+  const int y_px = histogram.at(0.5, 0.5).second;
+  screen.drag(x_of(-300.0), y_px, x_of(-600.0), y_px, 1, 0.8);
+  ASSERT_TRUE(fixtures::until([&] { return prepared().value("settings", "").rfind("skin_hu -", 0) == 0; }, 120.0))
+      << mentor_->now();
+  const std::string dragged = prepared().at("settings");
+  EXPECT_NEAR(std::stod(dragged.substr(8)), -600.0, 3024.0 / histogram.width_px + 1.0) << "a pixel is some HU";
+  mentor_->click("take triangles away", 0.1, 0.5);
+  screen.press("ctrl+a");
+  screen.type("0.3");
+  screen.press("Return");
+  ASSERT_TRUE(becomes(dragged + ", skin_decimate 0.30")) << mentor_->now();
+  EXPECT_GT(prepared().at("triangles").get<std::size_t>(), 2 * triangles);
+  EXPECT_GT(prepared().at("most_mm").get<double>(), 0.0);
+  mentor_->place_of("what it costs");
+  EXPECT_TRUE(mentor_->passes(1.5));
+  mentor_->keep_picture();
+  const std::size_t before = library_.ask("case list")["cases"].size();
+  mentor_->click("Keep as a draft of its own");
+  ASSERT_TRUE(fixtures::until([&] { return library_.ask("case list")["cases"].size() == before + 1; }, 60.0));
+  ASSERT_TRUE(fixtures::until([&] { return !editor().contains("prepared"); })) << "another case is in the editor";
+  mentor_->keep_picture();
+  Json made;
+  const Json listed = library_.ask("case list");
+  for (const Json& one : listed["cases"])
+    if (one["title"] == "Copy of From the case editor")
+      made = library_.ask("case show " + one["case_id"].get<std::string>());
+  ASSERT_TRUE(made.is_object());
+  EXPECT_EQ(made["preparation"]["skin_decimate"], 0.3);
+  EXPECT_EQ(made["preparation"]["shrink_i"], 1.0);
+  EXPECT_TRUE(shown()["preparation"].is_null()) << "the one before stays as it was";
+}
+
 }  // namespace
 }  // namespace seldinger

@@ -130,6 +130,10 @@ TEST_F(Gallery, CaseEditor) {
   trainee.press("e");
   trainee.place_of("room");  // it is made
   keep(trainee, "case-editor");
+  trainee.press("p");
+  trainee.place_of("what it costs");
+  trainee.place_of("room#2");
+  keep(trainee, "preparation");
 }
 
 }  // namespace

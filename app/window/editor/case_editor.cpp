@@ -194,7 +194,7 @@ void CaseEditor::drop_grip() noexcept {
 void CaseEditor::click(const glm::dvec3& place) {
   if (!scene_) return;
   view.set_cursor(scene_->scene.volume, place);
-  if (tool == EditorTool::look || tool == EditorTool::rule) return;
+  if (tool == EditorTool::look || tool == EditorTool::rule || tool == EditorTool::prepare) return;
   if (!locked_.empty()) {
     refusal_ = locked_;
     return;
@@ -330,6 +330,21 @@ void CaseEditor::undo() {
 
 bool CaseEditor::is_of_now(const session::Rehearsal& found) const {
   return scene_ && !checking() && scene_->check.content_mark == found.content_mark;
+}
+
+DraftPreparation& CaseEditor::preparing() {
+  if (!preparation_) {
+    const auto stored = casedb::find_preparation(library_.database(), case_id_);
+    preparation_ = std::make_unique<DraftPreparation>(library_.folder(), row_,
+                                                      stored ? stored->settings : casedb::Preparation{});
+  }
+  return *preparation_;
+}
+
+std::optional<std::string> CaseEditor::keep_preparation() {
+  const auto made = preparing().keep(library_, mentor_);
+  refusal_ = made ? "" : made.error().text;
+  return made ? std::optional(*made) : std::nullopt;
 }
 
 void CaseEditor::confirm_no_burned_in_text() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/window/editor/draft_case.h"
+#include "app/window/editor/draft_preparation.h"
 #include "app/window/editor/draft_rehearsal.h"
 #include "app/window/editor/editor_grip.h"
 #include "app/window/editor/editor_view.h"
@@ -19,7 +20,7 @@
 
 namespace seldinger::app {
 
-enum class EditorTool { look, lesion, structure, entry, rule };
+enum class EditorTool { look, lesion, structure, entry, rule, prepare };
 
 // What is at a place.
 struct EditorSpot {
@@ -106,6 +107,11 @@ class CaseEditor {
   // Whether what a rehearsal found is of the case as it is; false until its checks are through.
   bool is_of_now(const session::Rehearsal& found) const;
 
+  // --- the CT prepared anew, for a draft of its own ---
+  DraftPreparation& preparing();                                                       // begins with the first call
+  const DraftPreparation* preparation() const noexcept { return preparation_.get(); }  // null: nobody asked
+  std::optional<std::string> keep_preparation();  // the new draft's id; nothing: refused
+
   // --- from draft to published, as the commands `case review` and `case publish` ---
   void confirm_no_burned_in_text();
   void submit(const std::string& note);
@@ -147,6 +153,7 @@ class CaseEditor {
   std::shared_ptr<const CheckedCase> scene_;
   DraftCase draft_case_;
   std::optional<DraftRehearsal> rehearsal_;
+  std::unique_ptr<DraftPreparation> preparation_;
 };
 
 }  // namespace seldinger::app

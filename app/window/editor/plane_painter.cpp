@@ -30,6 +30,7 @@ PaintedPlane paint_plane(const PlaneWish& wish) {
                                       wish.window.width_hu),
                 wish.width_px, wish.height_px};
   painted.skin = skin_lines(scene.skin, wish.frame);
+  if (wish.beside) painted.skin_beside = skin_lines(wish.beside->scene.skin, wish.frame);
   for (const cases::Structure& structure : scene.structures) {
     auto segments = outline(structure.shape, wish.frame, kOutlinePixels * view.pixel_mm);
     if (!segments.empty()) painted.structures.push_back({structure.name, structure.rule, std::move(segments)});

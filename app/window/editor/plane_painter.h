@@ -19,7 +19,8 @@ namespace seldinger::app {
 // One plane as it is asked for.
 struct PlaneWish {
   std::shared_ptr<const CheckedCase> of;
-  std::vector<cases::Lesion> lesions;  // as they are drawn now; those in the volume are in it already
+  std::shared_ptr<const CheckedCase> beside;  // whose skin is drawn too; may be nothing
+  std::vector<cases::Lesion> lesions;         // as they are drawn now; those in the volume are in it already
   PlaneFrame frame;
   int width_px = 0, height_px = 0;
   session::HuWindow window = session::kHuWindows[0];
@@ -28,7 +29,7 @@ struct PlaneWish {
 struct PaintedPlane {
   PlaneFrame frame;
   session::GreyPicture ct;
-  std::vector<PlaneSegment> skin;
+  std::vector<PlaneSegment> skin, skin_beside;
   std::vector<PlaneOutline> structures;
 };
 

@@ -24,6 +24,10 @@ struct EditorTrace {
   std::optional<std::size_t> rehearsed, met;  // attempts of "Can it be met?", and how many of them passed
   glm::dvec3 cursor_lps_mm{0.0};
   double mm_per_pixel = 0.0;
+  // Of a CT that is prepared anew, once it is: "skin_hu -250", triangles, the farthest from the full surface.
+  std::optional<std::string> prepared;
+  std::size_t triangles = 0;
+  double most_mm = 0.0;
 };
 
 // Since the line before.

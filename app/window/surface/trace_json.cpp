@@ -49,6 +49,10 @@ std::string json_of(const TraceLine& line) {
     json["editor"]["rehearsed"] = *line.editor->rehearsed;
     json["editor"]["met"] = line.editor->met.value_or(0);
   }
+  if (line.editor && line.editor->prepared)
+    json["editor"]["prepared"] = {{"settings", *line.editor->prepared},
+                                  {"triangles", line.editor->triangles},
+                                  {"most_mm", line.editor->most_mm}};
   if (!line.arms.empty()) json["arms"] = line.arms;
   if (!line.asks.empty()) json["asks"] = line.asks;
   if (!line.focus.empty()) json["focus"] = line.focus;

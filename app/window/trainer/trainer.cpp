@@ -218,8 +218,12 @@ void Trainer::new_version(const std::string& case_id) {
     refusal_ = made.error().text;
     return;
   }
+  open_made_draft(*made);
+}
+
+void Trainer::open_made_draft(const std::string& case_id) {
   list_choices();
-  open_editor(*made);
+  open_editor(case_id);
 }
 
 void Trainer::duplicate_draft(const std::string& case_id) {

@@ -127,6 +127,7 @@ class Trainer {
   const std::string& imported() const noexcept { return imported_; }
   // A draft like a case that was published or that attempts were made on, the next version, in the case editor.
   void new_version(const std::string& case_id);
+  void open_made_draft(const std::string& case_id);  // one that the editor made of the case in it
   // A draft like one of the drafts, of the same CT, that is a case of its own.
   void duplicate_draft(const std::string& case_id);
   CaseEditor* editor() noexcept { return editor_.get(); }

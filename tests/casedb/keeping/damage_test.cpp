@@ -275,7 +275,8 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
           "DROP TABLE simulated_truth", "ALTER TABLE person DROP COLUMN kind",
           "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
       old.run(later);  // as schema 20 has no simulated people
-    for (const char* later : {"asked_event",
+    for (const char* later : {"case_preparation",
+                              "asked_event",
                               "password_link",
                               "web_session",
                               "cut",

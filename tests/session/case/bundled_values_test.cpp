@@ -73,6 +73,7 @@ class BundledValues : public testing::Test {
     made.attributes = {{"modality", "CT"}};
     made.warnings = {{"single_slice", "one slice only"}};
     made.dropped = {{"0010,0010", "PatientName", "not_on_the_list", 3}};
+    made.prepared = {{.denoise = 2.0}, made.volume};
     case_id_ = casedb::add_case(home_, made);
     add_authored(ball);
     ASSERT_TRUE(casedb::write_bundle(home_, {case_id_}, file_, "0.1.0").has_value());
@@ -161,7 +162,7 @@ class BundledValues : public testing::Test {
         "PRAGMA defer_foreign_keys = ON; UPDATE training_case SET state = 'retired'; "
         "INSERT INTO erasing (id) SELECT case_id FROM training_case");
     for (const char* table : {"case_attribute", "case_warning", "case_dropped", "lesion", "structure",
-                              "case_label_map", "case_received", "training_case", "erasing"})
+                              "case_label_map", "case_preparation", "case_received", "training_case", "erasing"})
       database.run(std::string("DELETE FROM ") + table);
     transaction.commit();
   }

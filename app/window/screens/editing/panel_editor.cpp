@@ -1,8 +1,9 @@
-#include "app/window/screens/panel_editor.h"
+#include "app/window/screens/editing/panel_editor.h"
 
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/attempts/rehearsal_words.h"
 #include "app/window/screens/panels.h"
@@ -18,11 +19,12 @@ struct ToolButton {
   int key;
   const char* label;
 };
-constexpr std::array<ToolButton, 5> kTools = {{{EditorTool::look, 'V', "Look (V)"},
+constexpr std::array<ToolButton, 6> kTools = {{{EditorTool::look, 'V', "Look (V)"},
                                                {EditorTool::lesion, 'L', "Lesion (L)"},
                                                {EditorTool::structure, 'T', "Structure (T)"},
                                                {EditorTool::entry, 'E', "Entry (E)"},
-                                               {EditorTool::rule, 'R', "Case and rule (R)"}}};
+                                               {EditorTool::rule, 'R', "Case and rule (R)"},
+                                               {EditorTool::prepare, 'P', "CT (P)"}}};
 
 constexpr int kHome = 268, kDelete = 261;  // as GLFW numbers them
 constexpr float kRightPx = 400.0F;
@@ -36,7 +38,8 @@ constexpr const char* kHelp =
     "Lesion: click – its middle; drag its middle or its rim. Structure: the same; a tube takes a point with each "
     "click "
     "and is done with Enter\n"
-    "Keys: V L T E R – tools · Z – undo · W – next window · Home – all of the CT · C – room cut away · Del – "
+    "CT: left as it came, right as it is prepared; in the histogram – drag – the skin's value\n"
+    "Keys: V L T E R P – tools · Z – undo · W – next window · Home – all of the CT · C – room cut away · Del – "
     "remove what is chosen · Enter, Esc – finish, drop a tube\n"
     "Without a mouse: Tab, Shift+Tab – to the next field, button or plane; in a plane arrows lead the cursor "
     "(Shift: "
@@ -111,8 +114,8 @@ void EditorPanel::draw_top(Trainer& trainer) {
   ImGui::SameLine();
   const session::HuWindow& stands = editor.view.window;
   char window[64];
-  std::snprintf(window, sizeof window, "%s %.0f / %.0f", stands.name, stands.center_hu, stands.width_hu);
-  ImGui::SetNextItemWidth(scaled(180.0F));
+  std::snprintf(window, sizeof window, "%s %.0f/%.0f", stands.name, stands.center_hu, stands.width_hu);
+  ImGui::SetNextItemWidth(scaled(155.0F));
   if (ImGui::BeginCombo("##window", window)) {
     for (const session::HuWindow& one : session::kHuWindows)
       if (ImGui::Selectable(one.name, one.center_hu == stands.center_hu)) editor.view.window = one;
@@ -319,7 +322,41 @@ void EditorPanel::tell(CaseEditor& editor, TraceLine& line) {
       told.met = found->passed();
     }
   }
+  if (const DraftPreparation* preparing = editor.preparation(); preparing != nullptr && !preparing->busy()) {
+    if (const auto made = preparing->newest()) {
+      told.prepared = casedb::text_of(made->settings);
+      told.triangles = made->fidelity.triangles;
+      told.most_mm = made->fidelity.most_mm;
+    }
+  }
   line.editor = std::move(told);
+}
+
+// Three planes and the room; of a CT that is prepared anew one plane and the room of each, beside each other.
+void EditorPanel::draw_pictures(CaseEditor& editor, const Keys& keys, float wide, float high) {
+  if (editor.tool != EditorTool::prepare) {
+    const EditorLook stored{editor.scene()};
+    planes_.draw(0, editor, stored, keys, wide, high);
+    ImGui::SameLine();
+    planes_.draw(2, editor, stored, keys, wide, high);
+    planes_.draw(1, editor, stored, keys, wide, high);
+    ImGui::SameLine();
+    room_.draw(editor, stored, wide, high);
+    return;
+  }
+  const auto made = editor.preparing().newest();
+  const EditorLook came{editor.preparing().original(), nullptr, "as it came"},
+      prepared{made ? made->shown : nullptr, came.of, "prepared; blue: as it came"};
+  planes_.draw(0, editor, came, keys, wide, high);
+  ImGui::SameLine();
+  ImGui::PushID("prepared");
+  prepared_planes_.draw(0, editor, prepared, keys, wide, high);
+  ImGui::PopID();
+  came_room_.draw(editor, {came.of, nullptr, "The skin of the CT as it came"}, wide, high);
+  ImGui::SameLine();
+  ImGui::PushID("prepared");
+  prepared_room_.draw(editor, {prepared.of, nullptr, "The skin as it is prepared"}, wide, high);
+  ImGui::PopID();
 }
 
 void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
@@ -333,7 +370,10 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
     title_of_.clear();
     name_of_.clear();
     texts_.clear();
-    setting_in_hand_ = form_in_hand_ = structure_in_hand_ = false;
+    setting_in_hand_ = form_in_hand_ = structure_in_hand_ = preparation_in_hand_ = false;
+    prepared_planes_.begin();
+    came_room_.begin();
+    prepared_room_.begin();
   }
   begin_screen("editor");
   draw_top(trainer);
@@ -344,23 +384,22 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
       "planes", {2.0F * wide + 4.0F, all.y}, false,
       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NavFlattened);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4.0F, 4.0F});
-  planes_.draw(0, editor, keys, wide, high);
-  ImGui::SameLine();
-  planes_.draw(2, editor, keys, wide, high);
-  planes_.draw(1, editor, keys, wide, high);
-  ImGui::SameLine();
-  room_.draw(editor, keys, wide, high);
+  draw_pictures(editor, keys, wide, high);
   ImGui::PopStyleVar();
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginGroup();
   const float actions_px = scaled(150.0F);
-  begin_fields("tool", 0.0F, 0.5F * (all.y - actions_px));
+  // Checks are of what is stored: beside a CT that is prepared they say nothing.
+  const bool checks = editor.tool != EditorTool::prepare;
+  begin_fields("tool", 0.0F, checks ? 0.5F * (all.y - actions_px) : all.y - actions_px - 12.0F);
   draw_tool(editor);
   ImGui::EndChild();
-  begin_fields("checks", 0.0F, 0.5F * (all.y - actions_px) - 12.0F);
-  draw_checks(editor);
-  ImGui::EndChild();
+  if (checks) {
+    begin_fields("checks", 0.0F, 0.5F * (all.y - actions_px) - 12.0F);
+    draw_checks(editor);
+    ImGui::EndChild();
+  }
   begin_fields("actions", 0.0F, 0.0F);
   draw_actions(trainer);
   ImGui::EndChild();
@@ -371,6 +410,7 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   if (trainer.screen() != TrainerScreen::editor) return;
   draw_help();
   if (!asked) read_keys(trainer, keys);
+  if (const auto kept = std::exchange(kept_preparation_, std::nullopt)) trainer.open_made_draft(*kept);
 }
 
 }  // namespace seldinger::app

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "app/window/screens/panel_editor.h"
+#include "app/window/screens/editing/panel_editor.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
@@ -16,7 +16,8 @@ namespace seldinger::app {
 namespace {
 
 constexpr ImU32 kWords = IM_COL32(205, 222, 232, 255), kCross = IM_COL32(120, 190, 230, 150);
-constexpr ImU32 kSkinLine = IM_COL32(235, 190, 150, 170), kLesion = kTargetColour;
+constexpr ImU32 kSkinLine = IM_COL32(235, 190, 150, 170), kSkinBeside = IM_COL32(90, 200, 255, 200);
+constexpr ImU32 kLesion = kTargetColour;
 constexpr ImU32 kChosen = IM_COL32(255, 235, 120, 255), kWay = IM_COL32(110, 235, 150, 230);
 constexpr ImU32 kWayMet = IM_COL32(255, 120, 90, 255);
 constexpr double kReachPx = 7.0, kClickPx = 4.0, kNearPlaneMm = 3.0;
@@ -108,7 +109,8 @@ void EditorPlanes::begin() {
 
 void EditorPlanes::ask(std::size_t plane, const CaseEditor& editor) {
   PlaneWish wish;
-  wish.of = editor.scene();
+  wish.of = look_.of;
+  wish.beside = look_.beside;
   const auto forms = editor.shown_lesions();
   for (std::size_t i = 0; i < forms.size(); ++i) {
     cases::Lesion lesion;
@@ -122,8 +124,12 @@ void EditorPlanes::ask(std::size_t plane, const CaseEditor& editor) {
   wish.width_px = static_cast<int>(size_px_.x);
   wish.height_px = static_cast<int>(size_px_.y);
   wish.window = editor.view.window;
-  std::vector<double> asked = {static_cast<double>(wish.of->number), wish.frame.size_mm.x, wish.frame.size_mm.y,
-                               wish.window.center_hu, wish.window.width_hu};
+  std::vector<double> asked = {static_cast<double>(wish.of->number),
+                               wish.beside ? static_cast<double>(wish.beside->number) : 0.0,
+                               wish.frame.size_mm.x,
+                               wish.frame.size_mm.y,
+                               wish.window.center_hu,
+                               wish.window.width_hu};
   push(asked, wish.frame.corner_lps_mm);
   for (const cases::Lesion& lesion : wish.lesions) {
     push(asked, lesion.center_lps_mm);
@@ -158,6 +164,7 @@ void EditorPlanes::draw_picture(std::size_t plane, const CaseEditor& editor, con
     };
     for (const PlaneSegment& segment : segments) draw->AddLine(at(segment.from_mm), at(segment.to_mm), colour);
   };
+  lines(shown.painted->skin_beside, kSkinBeside);
   lines(shown.painted->skin, kSkinLine);
   for (const PlaneOutline& one : shown.painted->structures) lines(one.segments, colour_of_rule(one.rule));
 }
@@ -180,7 +187,7 @@ void EditorPlanes::draw_case(std::size_t plane, const CaseEditor& editor, const 
       const ImVec2 to = pen.at(lesions.front().center_lps_mm);
       pen.draw->AddLine(from, to, kWay, 1.5F);
       const auto scene = editor.scene();
-      if (scene->way)
+      if (scene && scene->way)
         for (const session::WayPart& part : scene->way->parts) {
           if (!part.forbidden) continue;
           const glm::dvec3 along = (scene->way->target_lps_mm - scene->way->entry_lps_mm) / scene->way->length_mm;
@@ -214,6 +221,7 @@ void EditorPlanes::draw_words(std::size_t plane, const CaseEditor& editor, const
                                  : 'z',
                 glm::dot(normal, editor.view.cursor_lps_mm()));
   pen.words({corner.x + 6.0F, corner.y + 4.0F}, kWords, text);
+  if (*look_.caption != '\0') pen.words({corner.x + 6.0F, corner.y + scaled(24.0F)}, kWords, look_.caption);
   pen.words({corner.x + 6.0F, corner.y + 0.5F * high}, kWords, kind.left);
   pen.words({corner.x + wide - scaled(18.0F), corner.y + 0.5F * high}, kWords, kind.right);
   pen.words({corner.x + 0.5F * wide, corner.y + 4.0F}, kWords, kind.upper);
@@ -227,6 +235,15 @@ void EditorPlanes::draw_words(std::size_t plane, const CaseEditor& editor, const
   const ImVec2 mouse = ImGui::GetMousePos();
   const glm::dvec3 place = by_keys ? editor.view.cursor_lps_mm()
                                    : editor.view.place(plane, size_px_, {mouse.x - corner.x, mouse.y - corner.y});
+  if (look_.of != editor.scene()) {
+    const volume::Volume& volume = look_.of->scene.volume;
+    const auto hu =
+        volume::sample_trilinear(volume, glm::dvec3(volume::voxel_from_lps(volume) * glm::dvec4(place, 1.0)));
+    if (!hu) return;
+    std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f   %.0f HU", place.x, place.y, place.z, *hu);
+    pen.words({corner.x + 6.0F, corner.y + high - scaled(20.0F)}, kWords, text);
+    return;
+  }
   const auto spot = editor.spot(place);
   if (!spot || !spot->hu) return;
   std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f   %.0f HU   %s   %.0f mm deep", place.x, place.y, place.z,
@@ -242,7 +259,7 @@ void EditorPlanes::take_mouse(std::size_t plane, CaseEditor& editor, const Keys&
   const ImVec2 mouse = ImGui::GetMousePos();
   const glm::dvec2 at_px(mouse.x - corner.x, mouse.y - corner.y);
   const glm::dvec3 place = editor.view.place(plane, size_px_, at_px);
-  const volume::Volume& volume = editor.scene()->scene.volume;
+  const volume::Volume& volume = look_.of->scene.volume;
   if (ImGui::IsItemHovered()) {
     under_mouse_ = plane;
     if (io.MouseWheel != 0.0F) {
@@ -270,7 +287,8 @@ void EditorPlanes::take_mouse(std::size_t plane, CaseEditor& editor, const Keys&
   dragged_ = dragged_ || glm::distance(at_px, pressed_px_) > kClickPx;
   if (dragged_ && editor.grabbed())
     editor.drag(plane, place);
-  else if (dragged_ || editor.tool == EditorTool::look || editor.tool == EditorTool::rule)
+  else if (dragged_ || editor.tool == EditorTool::look || editor.tool == EditorTool::rule ||
+           editor.tool == EditorTool::prepare)
     editor.view.set_cursor(volume, place);
   if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
   pressed_.reset();
@@ -282,7 +300,9 @@ void EditorPlanes::take_mouse(std::size_t plane, CaseEditor& editor, const Keys&
     editor.drop_grip();
 }
 
-void EditorPlanes::draw(std::size_t plane, CaseEditor& editor, const Keys& keys, float width, float height) {
+void EditorPlanes::draw(std::size_t plane, CaseEditor& editor, EditorLook look, const Keys& keys, float width,
+                        float height) {
+  look_ = std::move(look);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   if (plane == 0) under_mouse_.reset();
   ImGui::PushID(static_cast<int>(plane));
@@ -298,8 +318,8 @@ void EditorPlanes::draw(std::size_t plane, CaseEditor& editor, const Keys& keys,
   draw->PushClipRect(corner, {corner.x + width, corner.y + height}, true);
   draw->AddRectFilled(corner, {corner.x + width, corner.y + height}, IM_COL32(0, 0, 0, 255));
   size_px_ = {std::max(16.0F, std::floor(width)), std::max(16.0F, std::floor(height))};
-  if (editor.scene()) {
-    if (!fitted_) {
+  if (look_.of) {
+    if (!fitted_ && look_.of == editor.scene()) {
       editor.view.fit(editor.scene()->scene.volume, size_px_);
       if (!editor.lesions().empty())
         editor.view.set_cursor(editor.scene()->scene.volume, editor.lesions().front().form.center_lps_mm);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/window/screens/panel_editor.h"
+#include "app/window/screens/editing/panel_editor.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "assessment/grading/usual_limit.h"
@@ -23,15 +23,6 @@ bool begin_choice(const char* label, const std::string& now) {
   const bool open = ImGui::BeginCombo(label, now.c_str());
   if (!open) note_item(label);
   return open;
-}
-
-// A number in a field. True once it is entered, not while it is typed.
-bool number(const char* label, double& value, double step, const char* format, bool& in_hand) {
-  ImGui::SetNextItemWidth(scaled(kFieldPx));
-  ImGui::InputDouble(label, &value, step, 10.0 * step, format);
-  note_item(label);
-  in_hand = in_hand || ImGui::IsItemActive();
-  return ImGui::IsItemDeactivatedAfterEdit();
 }
 
 // The box beside it says whether there is one.
@@ -151,6 +142,14 @@ std::string metric_words(const std::string& id) {
 
 }  // namespace
 
+bool number_field(const char* label, double& value, double step, const char* format, bool& in_hand) {
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
+  ImGui::InputDouble(label, &value, step, 10.0 * step, format);
+  note_item(label);
+  in_hand = in_hand || ImGui::IsItemActive();
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
 bool EditorPanel::draw_lesion_kind() {
   ImGui::SetNextItemWidth(scaled(kFieldPx));
   if (!begin_choice("kind", cases::about(form_.kind).words)) return false;
@@ -190,19 +189,19 @@ void EditorPanel::draw_lesion(CaseEditor& editor) {
   if (other_form) form_.roughness = form_.outline == cases::LesionOutline::irregular ? 0.12 : 0.0;
   changed = other_form || changed;
   if (form_.outline == cases::LesionOutline::ellipsoid) {
-    changed = number("radius x mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
-    changed = number("radius y mm", form_.radii_mm.y, 0.5, "%.1f", form_in_hand_) || changed;
-    changed = number("radius z mm", form_.radii_mm.z, 0.5, "%.1f", form_in_hand_) || changed;
+    changed = number_field("radius x mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
+    changed = number_field("radius y mm", form_.radii_mm.y, 0.5, "%.1f", form_in_hand_) || changed;
+    changed = number_field("radius z mm", form_.radii_mm.z, 0.5, "%.1f", form_in_hand_) || changed;
   } else {
-    changed = number("radius mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
+    changed = number_field("radius mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
     form_.radii_mm = glm::dvec3(form_.radii_mm.x);
   }
   if (form_.outline == cases::LesionOutline::irregular)
-    changed = number("roughness", form_.roughness, 0.02, "%.2f", form_in_hand_) || changed;
-  changed = number(form_.adds ? "HU added" : "HU", form_.hu, 5.0, "%.0f", form_in_hand_) || changed;
+    changed = number_field("roughness", form_.roughness, 0.02, "%.2f", form_in_hand_) || changed;
+  changed = number_field(form_.adds ? "HU added" : "HU", form_.hu, 5.0, "%.0f", form_in_hand_) || changed;
   ImGui::SameLine();
   changed = ImGui::Checkbox("to the tissue", &form_.adds) || changed;
-  changed = number("soft edge mm", form_.edge_mm, 0.5, "%.1f", form_in_hand_) || changed;
+  changed = number_field("soft edge mm", form_.edge_mm, 0.5, "%.1f", form_in_hand_) || changed;
   if (!there) {
     editor.new_lesion = form_;
     return;
@@ -308,13 +307,13 @@ bool EditorPanel::draw_structure_meaning() {
 bool EditorPanel::draw_drawn_structure() {
   bool changed = false;
   if (auto* sphere = std::get_if<cases::Sphere>(&structure_.drawn))
-    changed = number("radius mm", sphere->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
+    changed = number_field("radius mm", sphere->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
   if (auto* tube = std::get_if<cases::Tube>(&structure_.drawn))
-    changed = number("radius mm", tube->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
+    changed = number_field("radius mm", tube->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
   if (auto* ellipsoid = std::get_if<cases::Ellipsoid>(&structure_.drawn)) {
-    changed = number("radius x mm", ellipsoid->radii_mm.x, 0.5, "%.1f", structure_in_hand_) || changed;
-    changed = number("radius y mm", ellipsoid->radii_mm.y, 0.5, "%.1f", structure_in_hand_) || changed;
-    changed = number("radius z mm", ellipsoid->radii_mm.z, 0.5, "%.1f", structure_in_hand_) || changed;
+    changed = number_field("radius x mm", ellipsoid->radii_mm.x, 0.5, "%.1f", structure_in_hand_) || changed;
+    changed = number_field("radius y mm", ellipsoid->radii_mm.y, 0.5, "%.1f", structure_in_hand_) || changed;
+    changed = number_field("radius z mm", ellipsoid->radii_mm.z, 0.5, "%.1f", structure_in_hand_) || changed;
   }
   bool painted = structure_.hu.has_value();
   if (ImGui::Checkbox("shown, with HU", &painted)) {
@@ -366,7 +365,7 @@ bool EditorPanel::draw_setting(const casedb::SettingRow& row) {
   return std::visit(
       OfKind{[&](const NumberField& one) {
                double value = one.get(setting_);
-               const bool changed = number(label, value, row.editor.step, format.c_str(), setting_in_hand_);
+               const bool changed = number_field(label, value, row.editor.step, format.c_str(), setting_in_hand_);
                one.set(setting_, value);
                return changed;
              },
@@ -524,8 +523,11 @@ void EditorPanel::draw_tool(CaseEditor& editor) {
     case EditorTool::rule:
       draw_rule_and_setting(editor);
       break;
+    case EditorTool::prepare:
+      break;  // of a published case too: it becomes another draft
   }
   ImGui::EndDisabled();
+  if (editor.tool == EditorTool::prepare) draw_preparation(editor);
 }
 
 }  // namespace seldinger::app

@@ -27,13 +27,20 @@ struct SettingRow;
 
 namespace seldinger::app {
 
+// What a plane or the room looks at: the case as it is stored, or its CT as it came or prepared anew.
+struct EditorLook {
+  std::shared_ptr<const CheckedCase> of;        // nothing: it is not there yet
+  std::shared_ptr<const CheckedCase> beside{};  // whose skin is drawn too
+  const char* caption = "";
+};
+
 // The planes, with what is drawn over them and the mouse in them.
 class EditorPlanes {
  public:
   explicit EditorPlanes(gpu::Context& context);
 
   void begin();  // another case
-  void draw(std::size_t plane, CaseEditor& editor, const Keys& keys, float width, float height);
+  void draw(std::size_t plane, CaseEditor& editor, EditorLook look, const Keys& keys, float width, float height);
   std::optional<std::size_t> under_mouse() const noexcept { return under_mouse_; }
   // The plane that has the keyboard: arrows lead the cursor in it, the page keys through it, Space clicks there.
   std::optional<std::size_t> by_keys() const noexcept { return by_keys_; }
@@ -55,16 +62,19 @@ class EditorPlanes {
   std::optional<std::size_t> under_mouse_, by_keys_, pressed_;
   glm::dvec2 pressed_px_{0.0}, size_px_{1.0};
   bool dragged_ = false, fitted_ = false;
+  EditorLook look_;  // of the plane that is being drawn
   PlanePainter painter_;
 };
 
 // The patient in the room: looked through or cut away, with all that is placed; a click on the skin sets the entry.
 class EditorRoom {
  public:
-  explicit EditorRoom(gpu::Context& context) : context_(context) {}
+  using Camera = std::shared_ptr<std::optional<imaging::RoomCamera>>;  // rooms side by side have one
+
+  EditorRoom(gpu::Context& context, Camera camera) : context_(context), camera_(std::move(camera)) {}
 
   void begin();
-  void draw(CaseEditor& editor, const Keys& keys, float width, float height);
+  void draw(CaseEditor& editor, EditorLook look, float width, float height);
   void toggle_glass() noexcept { glass_ = !glass_; }
 
  private:
@@ -77,19 +87,29 @@ class EditorRoom {
     unsigned int picture = 0;
   };
   void prepare(const CaseEditor& editor);
+  bool stored(const CaseEditor& editor) const { return look_.of == editor.scene(); }
   void take_mouse(CaseEditor& editor, float width, float height);
 
   gpu::Context& context_;
   std::unique_ptr<Room> room_;
-  std::optional<imaging::RoomCamera> camera_;
+  Camera camera_;
+  EditorLook look_;      // of the frame
   std::string made_of_;  // what the room was made of, or is being
   std::future<imaging::RoomModel> making_;
   bool glass_ = true, dragged_ = false;
 };
 
+// A number in a field, noted by its label. True once it is entered, not while it is typed.
+bool number_field(const char* label, double& value, double step, const char* format, bool& in_hand);
+
 class EditorPanel {
  public:
-  explicit EditorPanel(gpu::Context& context) : planes_(context), room_(context) {}
+  explicit EditorPanel(gpu::Context& context)
+      : planes_(context),
+        prepared_planes_(context),
+        room_(context, camera_),
+        came_room_(context, skin_camera_),
+        prepared_room_(context, skin_camera_) {}
 
   void draw(Trainer& trainer, const Keys& keys);
   void end() noexcept { case_id_.clear(); }
@@ -118,8 +138,14 @@ class EditorPanel {
   void ask_to_publish(const CaseEditor& editor, bool own_cohort);
   void draw_help();
 
-  EditorPlanes planes_;
-  EditorRoom room_;
+  void draw_pictures(CaseEditor& editor, const Keys& keys, float wide, float high);
+  void draw_preparation(CaseEditor& editor);
+  static void draw_histogram(DraftPreparation& preparing, casedb::Preparation& settings, bool& in_hand);
+
+  EditorRoom::Camera camera_ = std::make_shared<std::optional<imaging::RoomCamera>>(),
+                     skin_camera_ = std::make_shared<std::optional<imaging::RoomCamera>>();
+  EditorPlanes planes_, prepared_planes_;
+  EditorRoom room_, came_room_, prepared_room_;
   std::string case_id_;
   bool help_ = false;
   Question question_;
@@ -137,6 +163,9 @@ class EditorPanel {
   bool form_in_hand_ = false;
   casedb::StructureRow structure_;
   bool structure_in_hand_ = false;
+  casedb::Preparation preparation_;
+  bool preparation_in_hand_ = false;
+  std::optional<std::string> kept_preparation_;  // the draft that it became, to be opened
 };
 
 }  // namespace seldinger::app
