@@ -61,7 +61,8 @@ int run_case_show(const Arguments& arguments) {
   for (const base::Problem& warning : row.warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   std::fputs(privacy_text(row).c_str(), stdout);
-  if (parts->preparation) std::printf("prepared %s\n", casedb::text_of(*parts->preparation).c_str());
+  const std::string prepared = parts->preparation ? casedb::text_of(*parts->preparation) : "";
+  if (!prepared.empty()) std::printf("prepared %s\n", prepared.c_str());
   if (parts->received) std::fputs(received_text(*parts->received).c_str(), stdout);
   for (const casedb::LesionRow& lesion : parts->lesions) {
     const cases::LesionForm& form = lesion.form;

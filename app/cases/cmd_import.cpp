@@ -117,6 +117,10 @@ int run_import(const Arguments& arguments) {
     library.emplace(std::move(*made));
   }
   const std::string case_id = casedb::add_case(*library, *imported);
+  if (!arguments.has("--json")) {  // at once: whoever ends the work that follows learns what there is by now
+    std::printf("case %s\n", case_id.c_str());
+    std::fflush(stdout);
+  }
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
   tell_same_ct(*library, *row);
@@ -124,9 +128,9 @@ int run_import(const Arguments& arguments) {
     std::fputs(json_of_case(casedb::load_parts(*library, *row)).c_str(), stdout);
     return kDone;
   }
-  std::printf("case %s\n%s\n%d x %d x %d voxels, %.4g x %.4g x %.4g mm, HU %d to %d, %d slices\n",
-              row->case_id.c_str(), row->title.c_str(), row->size_voxels.x, row->size_voxels.y, row->size_voxels.z,
-              row->spacing_mm.x, row->spacing_mm.y, row->spacing_mm.z, row->hu_min, row->hu_max, row->slices_used);
+  std::printf("%s\n%d x %d x %d voxels, %.4g x %.4g x %.4g mm, HU %d to %d, %d slices\n", row->title.c_str(),
+              row->size_voxels.x, row->size_voxels.y, row->size_voxels.z, row->spacing_mm.x, row->spacing_mm.y,
+              row->spacing_mm.z, row->hu_min, row->hu_max, row->slices_used);
   for (const base::Problem& warning : row->warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   std::fputs(privacy_text(*row).c_str(), stdout);

@@ -453,7 +453,8 @@ constexpr ErrorCode kImportCodes[] = {
      "A NIfTI header's sform mirrors its qform: refused where both are said to be the scanner's.",
      "Set the header right from the original series."},
     {"bad_preparation", kRefuses,
-     "A CT cannot be prepared so: a value out of its bounds, or too few or too large voxels left.",
+     "A CT cannot be prepared so: a value out of its bounds, a skin not above the lower clamp, too few or too "
+     "large voxels, or a lesion or structure that would be lost.",
      "Give values within what the message tells."},
     {"prepared", kWarns, "The CT was prepared as asked: what was set, and how far that is from the CT as it came.",
      ""},

@@ -80,6 +80,13 @@ class ActingSession {
   std::string token_;
 };
 
+// "": it made none. It says so as soon as the case is there, before it has ended.
+std::string made_case_of(const web::Job& job, const std::string& output) {
+  const std::size_t line_end = output.find('\n');
+  if (job.kind != web::JobKind::import_ct || !output.starts_with(kMadeCase) || line_end == output.npos) return "";
+  return output.substr(kMadeCase.size(), line_end - kMadeCase.size());
+}
+
 web::JobEnd run_job(const web::Job& job, const fs::path& folder, const fs::path& library,
                     const std::function<void(std::string_view)>& doing, const std::stop_token& stop) {
   const fs::path token = folder / "session";
@@ -90,10 +97,9 @@ web::JobEnd run_job(const web::Job& job, const fs::path& folder, const fs::path&
   words.insert(words.end(), {"--library", library.string(), "--token-file", token.string()});
   const ChildEnd end = run_this_program(words, doing, stop);
   web::JobEnd ended;
-  ended.done = end.exit_code == 0;
+  ended.made_id = made_case_of(job, end.output);
+  ended.done = end.exit_code == 0 || !ended.made_id.empty();
   ended.said = without_places(ended.done ? end.output : reason_of(end), job, folder, library);
-  if (ended.done && job.kind == web::JobKind::import_ct && end.output.starts_with(kMadeCase))
-    ended.made_id = end.output.substr(kMadeCase.size(), end.output.find('\n') - kMadeCase.size());
   return ended;
 }
 

@@ -68,8 +68,11 @@ void add_worst(const LevelAgreement& level, std::string& text) {
   for (const population::MetricAgreement& metric : worst)
     add_line(text, " `%s` %+.2f SD (standard error %.2f),", metric.metric.c_str(), metric.quantile_sd,
              metric.quantile_error_sd);
-  add_line(text, " and the rank correlation of %s, by %.2f (%.2f).\n", one.worst_pair.c_str(),
-           one.worst_rank_correlation, one.rank_correlation_error);
+  if (one.worst_pair.empty())
+    text += " and no pair could be compared.\n";
+  else
+    add_line(text, " and the rank correlation of %s, by %.2f (%.2f).\n", one.worst_pair.c_str(),
+             one.worst_rank_correlation, one.rank_correlation_error);
 }
 
 void add_effects(const GroupsAgreement& groups, std::string& text) {

@@ -45,8 +45,12 @@ void print_sum(const std::vector<population::MetricDose>& doses, const std::vect
     std::vector<double> shares;
     double paired = 0.0;
     for (const population::MetricDose& one : doses) {
-      shares.push_back(covered_share(one.responses[s]));
+      if (one.responses[s].intervals > 0) shares.push_back(covered_share(one.responses[s]));
       paired = std::max(paired, std::abs(one.responses[s].paired));
+    }
+    if (shares.empty()) {
+      print("| %g | 0 | – | – | – | – | %.3f |\n", shifts[s], paired);
+      continue;
     }
     std::sort(shares.begin(), shares.end());
     const auto outside = std::count_if(shares.begin(), shares.end(),

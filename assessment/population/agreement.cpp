@@ -141,9 +141,14 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   return made;
 }
 
+struct RankCorrelation {
+  double rho = 0.0;
+  std::size_t n = 0;  // rows in which both have a value
+};
+
 // Spearman's of one metric in rows and another in others, of those in which both have a value.
-std::optional<double> rank_correlation(std::span<const Values> rows, std::size_t m, std::span<const Values> others,
-                                       std::size_t k) {
+std::optional<RankCorrelation> rank_correlation(std::span<const Values> rows, std::size_t m,
+                                                std::span<const Values> others, std::size_t k) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i)
     if (rows[i][m] && others[i][k]) {
@@ -160,13 +165,13 @@ std::optional<double> rank_correlation(std::span<const Values> rows, std::size_t
     yy += (b[i] - middle) * (b[i] - middle);
   }
   if (!(xx > 0.0 && yy > 0.0)) return std::nullopt;
-  return xy / std::sqrt(xx * yy);
+  return RankCorrelation{xy / std::sqrt(xx * yy), x.size()};
 }
 
 // Bonett and Wright's (Psychometrika 65, 2000) of Fisher's z, back on the correlation.
-double rank_correlation_error(double correlation, std::size_t n) {
-  return (1.0 - correlation * correlation) *
-         std::sqrt((1.0 + 0.5 * correlation * correlation) / (static_cast<double>(n) - 3.0));
+double error_of(const RankCorrelation& one) {
+  const double square = one.rho * one.rho;
+  return (1.0 - square) * std::sqrt((1.0 + 0.5 * square) / (static_cast<double>(one.n) - 3.0));
 }
 
 std::vector<double> values_of(std::span<const Values> rows, std::size_t m) {
@@ -207,9 +212,9 @@ void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std
       const auto b = rank_correlation(drawn, compared[i], drawn, compared[j]);
       if (!a || !b) continue;
       ++sum.pairs;
-      const double off = std::abs(*a - *b);
+      const double off = std::abs(a->rho - b->rho);
       sum.pairs_off += off > kPairLimit ? 1U : 0U;
-      const double error = rank_correlation_error(*a, full.size());
+      const double error = error_of(*a);
       own.add(off, error);
       sum.pairs_beyond_chance += off > kPairLimit + kErrors * error ? 1U : 0U;
       if (off > sum.worst_rank_correlation) {
@@ -268,7 +273,7 @@ std::vector<EffectAgreement> effects_of(const Surrogate& surrogate, std::span<co
     made.d_drawn = difference_of(x, y);
     const auto n1 = static_cast<double>(a.size()), n2 = static_cast<double>(b.size());
     made.d_error = std::sqrt((n1 + n2) / (n1 * n2) + made.d * made.d / (2.0 * (n1 + n2)));
-    made.pairs = rank_correlation(full[0], m, full[1], m).value_or(0.0);
+    made.pairs = rank_correlation(full[0], m, full[1], m).value_or(RankCorrelation{}).rho;
   }
   return effects;
 }

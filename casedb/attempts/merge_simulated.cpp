@@ -9,6 +9,7 @@
 
 #include "assessment/population/streams.h"
 #include "casedb/attempts/attempts.h"
+#include "casedb/attempts/made_at.h"
 #include "casedb/cases/case_checks.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/simulated_people.h"
@@ -18,9 +19,9 @@ namespace {
 
 namespace population = assessment::population;
 
-// What tells two attempts of a person apart. Needle and picture follow from the case and their kinds.
+// What tells two attempts of a person apart: a draft's needle, picture or approach may have been another one's.
 auto key_of(const AttemptHead& one) {
-  return std::tuple(one.case_id, one.lesion_id, one.instrument.kind, one.picture.modality, one.seed);
+  return std::tuple(made_at(one.case_id, one.lesion_id, one.instrument, one.picture, one.approach), one.seed);
 }
 
 struct Arriving {
@@ -72,6 +73,7 @@ base::Result<void> add(Library& into, Library& from, const AttemptRow& row) {
   made.end = row.end;
   made.metrics = row.metrics;
   made.steps = list_steps(from, row.attempt_id);
+  made.conditions = find_conditions(from, row.attempt_id);
   auto recording = load_recording(from, row.attempt_id);
   if (!recording) return recording.error();
   made.recording = std::move(*recording);

@@ -253,9 +253,16 @@ std::string mark_of_rows(Sqlite& library, const std::string& case_id) {
     std::erase_if(marked, [&](const std::string& column) {
       return std::ranges::find(table.changing, column) != table.changing.end();
     });
-    put_text(all, table.name);
-    for (Statement row = rows_of(library, table, case_id); row.step();)
+    // Marks are kept, in surrogates: where there is nothing in a table that came after them, it is not named. A
+    // later travelling table belongs here too.
+    const bool came_later = table.name == "case_preparation";
+    if (!came_later) put_text(all, table.name);
+    if (marked.empty()) continue;  // of a later schema
+    bool first = came_later;
+    for (Statement row = rows_of(library, table, case_id); row.step(); first = false) {
+      if (first) put_text(all, table.name);
       for (const std::string& column : marked) put_value(all, row, column);
+    }
   }
   return sha256_hex(all);
 }

@@ -39,6 +39,9 @@ base::Result<void> check_preparation(const Preparation& preparation) {
           {"bad_preparation", std::string(row.option) + " is " + (row.digits == 0 ? "a whole number " : "") +
                                   "from " + number_of(row, row.least) + " to " + number_of(row, row.most)});
   }
+  // What is less becomes the lower clamp: with the skin there or below, all of the scan is body.
+  if (error.findings.empty() && preparation.skin_hu <= preparation.clamp_low_hu)
+    error.findings.push_back({"bad_preparation", "--skin-hu is to be more than --clamp-low"});
   if (!error.findings.empty()) return error;
   return {};
 }

@@ -62,7 +62,8 @@ inline constexpr auto kPreparationRows = std::to_array<PreparationRow>({
      "share of the skin's triangles that is taken away; default 0.7", "take triangles away", 0.0, 0.98, 0.05, 2},
 });
 
-// `bad_preparation` with every value that is out of its bounds, not whole where it must be, or NaN.
+// `bad_preparation` with every value that is out of its bounds, not whole where it must be, or NaN; or where the
+// skin does not lie above the lower clamp.
 base::Result<void> check_preparation(const Preparation& preparation);
 
 // "denoise 5, shrink_k 2": what is other than usual; empty: nothing.

@@ -165,7 +165,10 @@ void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id
   }
   if (other == nullptr) return;
   add_preparation(database, case_id, other->preparation);
-  question(database, "remove_preparation_warnings").bind("case_id", case_id).run();
+  question(database, "remove_preparation_warnings")
+      .bind("case_id", case_id)
+      .bind("from_case_id", from.case_id)
+      .run();
   Statement warning = question(database, "add_later_warning");
   for (const base::Problem& one : other->warnings)
     warning.bind("case_id", case_id).bind("code", one.code).bind("text", one.text).run();
@@ -293,6 +296,21 @@ base::Result<void> try_to_retire(Library& library, const std::string& case_id, c
   return {};
 }
 
+// Of a copy with another volume: what a bundle of it would be refused for.
+base::Result<void> check_what_is_left(Library& library, const CaseRow& row, const std::vector<LesionRow>& lesions,
+                                      const std::vector<StructureRow>& structures) {
+  for (const LesionRow& lesion : lesions)
+    if (!is_sound_lesion(row, lesion.form))
+      return base::Error{"bad_preparation", "a lesion of the case would lie outside what is left of the CT"};
+  CaseContents contents(
+      library.database(), [&](const std::string& sha256) { return library.load_asset(sha256); }, row);
+  for (const StructureRow& structure : structures)
+    if (structure.kind != StructureKind::label && !check_place(contents, row, structure))  // maps stay as they are
+      return base::Error{"bad_preparation",
+                         "nothing of the structure " + structure.name + " would be left in the CT"};
+  return {};
+}
+
 base::Result<std::string> try_to_copy(Library& library, const std::string& case_id, const std::string& by,
                                       Copy copy_as, const CopyData* other = nullptr) {
   Transaction transaction(library.database());
@@ -306,9 +324,8 @@ base::Result<std::string> try_to_copy(Library& library, const std::string& case_
   if (other != nullptr) other->assets.make_sure();
   copy_case(database, wanted->row, made, copy_as, other);
   const CaseRow row = read_cases(database, made).at(0);
-  for (const LesionRow& lesion : lesions)
-    if (!is_sound_lesion(row, lesion.form))
-      return base::Error{"bad_preparation", "a lesion of the case would lie outside what is left of the CT"};
+  if (other != nullptr)  // else all lies where it lay, also what no command would take today
+    if (const auto left = check_what_is_left(library, row, lesions, structures); !left) return left.error();
   for (const LesionRow& lesion : lesions)
     question(database, "copy_lesion")
         .bind("case_id", made)
@@ -359,7 +376,8 @@ base::Result<std::string> add_prepared_copy(Library& library, const std::string&
                                             const PreparedCopy& prepared, const std::string& by) {
   const auto from = find_case(library, case_id);
   if (!from) return from.error();
-  const bool same_grid = from->size_voxels == prepared.volume.size_voxels;
+  const bool same_grid =
+      from->size_voxels == prepared.volume.size_voxels && from->lps_from_voxel == prepared.volume.lps_from_voxel;
   std::optional<volume::LabelMap> labels;
   if (!from->labels_sha256.empty()) {
     auto loaded = load_labels(library, *from);

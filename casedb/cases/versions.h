@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "casedb/cases/case_checks.h"
+#include "casedb/cases/preparation.h"
+#include "sim/case/form/mesh.h"
+#include "sim/volume/volume.h"
 
 namespace seldinger::casedb {
 
@@ -61,7 +64,7 @@ struct PreparedCopy {
   std::vector<base::Problem> warnings;
 };
 // The same with another preparation of its CT; lesions, structures and setting come along. `bad_preparation`: a
-// case with label maps is shrunk, or a lesion would lie outside what is left.
+// case with label maps is shrunk, or a lesion or a structure would lie outside what is left.
 base::Result<std::string> add_prepared_copy(Library& library, const std::string& case_id,
                                             const PreparedCopy& prepared, const std::string& by);
 

@@ -141,6 +141,7 @@ Fidelity fidelity_of(const volume::Volume& original, const FullSurface& full, co
   std::vector<double> distances_mm;
   add_distances(prepared.skin, full.index, distances_mm);
   add_distances(full.mesh, cases::MeshIndex(prepared.skin), distances_mm);
+  found.compares_skin = !distances_mm.empty();
   const Spread away = spread_of(std::move(distances_mm));
   found.mean_mm = away.mean;
   found.most_95_mm = away.most_95;
@@ -166,12 +167,13 @@ Fidelity fidelity_of(const volume::Volume& original, const FullSurface& full, co
 }
 
 std::string text_of(const Fidelity& fidelity) {
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "the skin is %.2f mm from the full surface on the mean, 95 %% within %.2f mm, at most %.2f mm; %zu "
-                "triangles of %zu; HU differ by %.1f on the mean, 95 %% by at most %.0f",
-                fidelity.mean_mm, fidelity.most_95_mm, fidelity.most_mm, fidelity.triangles,
-                fidelity.full_triangles, fidelity.mean_hu, fidelity.most_95_hu);
+  char distances[128] = "there is no skin to compare with the full surface", text[320];
+  if (fidelity.compares_skin)
+    std::snprintf(distances, sizeof distances,
+                  "the skin is %.2f mm from the full surface on average, 95 %% within %.2f mm, at most %.2f mm",
+                  fidelity.mean_mm, fidelity.most_95_mm, fidelity.most_mm);
+  std::snprintf(text, sizeof text, "%s; %zu triangles of %zu; HU differ by %.1f on average, 95 %% by at most %.0f",
+                distances, fidelity.triangles, fidelity.full_triangles, fidelity.mean_hu, fidelity.most_95_hu);
   return text;
 }
 

@@ -38,6 +38,7 @@ base::Result<FullSurface> full_surface(const volume::Volume& original, double sk
 // What the preparation cost. Distances between both surfaces, from each to the other, caps where the CT ends aside;
 // differences of HU at voxels of the original that are no air.
 struct Fidelity {
+  bool compares_skin = false;  // else both are caps alone, and there are no distances
   double mean_mm = 0.0, most_95_mm = 0.0, most_mm = 0.0;
   double mean_hu = 0.0, most_95_hu = 0.0;
   std::size_t triangles = 0, full_triangles = 0;

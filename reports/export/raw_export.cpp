@@ -23,6 +23,13 @@
 namespace seldinger::reports {
 namespace {
 
+// Nobody ended it.
+bool is_cut_off(const casedb::AttemptRow& row) {
+  using casedb::AttemptEnd;
+  return row.end == AttemptEnd::time_limit || row.end == AttemptEnd::device_lost ||
+         row.end == AttemptEnd::interrupted;
+}
+
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
@@ -179,7 +186,7 @@ class OtherFormats {
     const std::string person = facts.names.person.value_or("");
     if (choice_.xapi)
       statements_.push_back({std::move(id), person, facts.names.attempt, facts.names.case_id, row.synthetic(),
-                             grader_.grade(row).verdict, as_told(row.duration_s, precision)});
+                             grader_.grade(row).verdict, is_cut_off(row), as_told(row.duration_s, precision)});
     if (recording == nullptr) return {};
     if (choice_.motion_bids) {
       subjects_.push_back(bids_subject(person));

@@ -33,6 +33,10 @@ async function watch() {
 const post = (path, fields) =>
   fetch(address + path, { method: "POST", body: new URLSearchParams({ token, ...fields }), redirect: "error" });
 
+// A proxy's page, or one of ours, is no line.
+const why = async (answer) =>
+  (answer.headers.get("Content-Type") || "").startsWith("text/plain") ? await answer.text() : "";
+
 const base64url = (bytes) => {
   let text = "";
   for (const byte of bytes) text += String.fromCharCode(byte);
@@ -52,14 +56,14 @@ async function send(chosen) {
     for (let at = 0; at < file.size; at += kPiece) {
       const piece = new Uint8Array(await file.slice(at, at + kPiece).arrayBuffer());
       const answer = await post("/files", { number, ending: ending(file.name), at, data: base64url(piece) });
-      if (!answer.ok) return tell("Not sent.", await answer.text(), 0);
+      if (!answer.ok) return tell("Not sent.", await why(answer), 0);
       sent += piece.length;
       tell("Sends its files", `${number + 1} of ${files.length}`, sent / all);
     }
   }
   const begun = await post("/start", {});
   if (begun.ok) location.reload();
-  else tell("Not sent.", await begun.text(), 0);
+  else tell("Not sent.", await why(begun), 0);
 }
 
 if (job.dataset.state === "waiting" || job.dataset.state === "running") watch();

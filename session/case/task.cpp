@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <tuple>
 
+#include "casedb/attempts/made_at.h"
 #include "session/case/case_build.h"
 #include "session/guidance/guidance.h"
 
@@ -66,16 +66,10 @@ casedb::AttemptHead head_of(const Task& task, const Program& program, std::strin
 }
 
 bool was_made_at(const casedb::AttemptHead& attempt, const Task& task) {
-  const auto measures = [](const cases::Instrument& tool) {
-    return std::tuple(tool.kind, tool.length_mm, tool.radius_mm, tool.inner_radius_mm, tool.hu, tool.throw_mm,
-                      tool.notch_mm, tool.dead_tip_mm);
-  };
-  const auto shown = [](const cases::Picture& picture) {
-    return std::tuple(picture.modality, picture.depth_mm, picture.width_mm, picture.rate_hz, picture.probe);
-  };
-  return attempt.case_id == task.row.case_id && attempt.lesion_id == task.lesion.lesion_id &&
-         measures(attempt.instrument) == measures(task.scene.instrument) &&
-         shown(attempt.picture) == shown(task.scene.picture) && attempt.approach == task.scene.approach;
+  return casedb::made_at(attempt.case_id, attempt.lesion_id, attempt.instrument, attempt.picture,
+                         attempt.approach) == casedb::made_at(task.row.case_id, task.lesion.lesion_id,
+                                                              task.scene.instrument, task.scene.picture,
+                                                              task.scene.approach);
 }
 
 }  // namespace seldinger::session

@@ -126,9 +126,9 @@ TEST_F(SimulateTest, ShardsOfAClusterMergeIntoOneLibraryWithoutADouble) {
   ask("case bundle " + first_case() + " --out " + bundle);
   const std::string words = " --people 3 --seed 9 --operator novice --case " + first_case();
   const auto task = [&](const std::string& number) {
-    const auto ran = run("SLURM_ARRAY_TASK_ID=" + number + " SLURM_ARRAY_TASK_COUNT=2 SELDINGER='" + kProgram +
-                             "' '" + (fixtures::source_dir() / "docs/simulated-people.sh").string() + "' '" +
-                             bundle + "' '" + scratch_.string() + "'" + words,
+    const auto ran = run("SLURM_ARRAY_TASK_ID=" + number + " SELDINGER='" + kProgram + "' '" +
+                             (fixtures::source_dir() / "docs/simulated-people.sh").string() + "' 2 '" + bundle +
+                             "' '" + scratch_.string() + "'" + words,
                          scratch_);
     EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
     return ran.out;
@@ -137,7 +137,9 @@ TEST_F(SimulateTest, ShardsOfAClusterMergeIntoOneLibraryWithoutADouble) {
   task("2");
   EXPECT_NE(task("1").find("2 attempts of these people were there already"), std::string::npos);
   const auto merge = [&](const std::string& number) {
-    return ask("simulate merge " + (scratch_ / ("shard-" + number)).string());
+    const std::string shard = (scratch_ / ("shard-" + number)).string();
+    EXPECT_EQ(run("mkdir -p " + shard + " && tar -xf " + shard + ".tar -C " + shard, scratch_).exit_code, 0);
+    return ask("simulate merge " + shard);
   };
   const Json two = merge("1"), one = merge("2"), again = merge("1");
   EXPECT_EQ(two, Json::parse(R"({"synthetic": true, "people": 2, "attempts": 2, "there": 0})"));

@@ -227,7 +227,7 @@ class FakeQuestions final : public Questions {
   std::vector<casedb::CaseRow> list_cases() override { return cases; }
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     for (const casedb::CaseRow& row : cases)
-      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, decisions, {}, true};
+      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, decisions, {}, {}, true};
     return base::Error{"no_case", "there is no such case"};
   }
   std::string case_mark(const std::string&) override {

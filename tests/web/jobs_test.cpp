@@ -122,8 +122,11 @@ TEST_F(JobsTest, FilesComeInPiecesInOrder) {
   EXPECT_EQ(send(0, "dcm", 5, "x"), "bad_piece");
   for (const char* ending : {"../../x", "nhdr", "", "dcm/x", "DCM"})
     EXPECT_EQ(send(0, ending, 0, "x"), "bad_piece");
-  EXPECT_EQ(send(0, "dcm", 0, "abc"), "");
-  EXPECT_EQ(send(0, "dcm", 0, "abc"), "bad_piece") << "sent again";
+  EXPECT_EQ(send(SIZE_MAX, "dcm", 0, "x"), "bad_piece") << "its next number is 0";
+  EXPECT_EQ(send(0, "nii", 0, "xyz"), "");
+  EXPECT_EQ(send(1, "dcm", 0, "12345678"), "");
+  EXPECT_EQ(send(0, "dcm", 0, "abc"), "") << "begun anew, by a page that was loaded again";
+  EXPECT_EQ(jobs->find(kAnn, id)->files, (std::vector<JobFile>{{"0000.dcm", 3}}));
   EXPECT_EQ(send(0, "dcm", 3, "def"), "");
   EXPECT_EQ(send(1, "nii.gz", 0, "123"), "");
   EXPECT_EQ(send(0, "dcm", 6, "x"), "bad_piece") << "an older file";
@@ -147,7 +150,9 @@ TEST_F(JobsTest, WhatRunsAndWhatWaitsCanBeCancelled) {
   ASSERT_TRUE(reaches(*jobs, kAnn, running, JobState::cancelled));
   EXPECT_TRUE(jobs->find(kAnn, running)->results.empty()) << "half a result is none";
   EXPECT_FALSE(jobs->load_result(kAnn, running, 0));
-  EXPECT_TRUE(jobs->cancel(kAnn, running)) << "what has ended is removed";
+  EXPECT_TRUE(jobs->cancel(kAnn, running));
+  EXPECT_TRUE(jobs->find(kAnn, running)) << "a page that is out of date removes nothing";
+  EXPECT_TRUE(jobs->remove(kAnn, running));
   EXPECT_FALSE(jobs->find(kAnn, running));
   EXPECT_FALSE(fs::exists(folder_ / kAnn / running));
 }
@@ -205,7 +210,84 @@ TEST_F(JobsTest, OldOnesAndHalfSentOnesGo) {
   EXPECT_EQ(jobs->list(kAnn)[0].job_id, half);
   now_us_ += limits_.kept_us;
   EXPECT_TRUE(jobs->list(kAnn).empty());
-  EXPECT_TRUE(fs::is_empty(folder_ / kAnn));
+  EXPECT_FALSE(fs::exists(folder_ / kAnn));
+}
+
+TEST_F(JobsTest, OldOnesGoThoughNobodyAsks) {
+  limits_.looks_every = std::chrono::milliseconds(5);
+  auto jobs = open();
+  const std::string done = jobs->ask(kAnn, JobKind::study_report, {}).value();
+  ASSERT_TRUE(reaches(*jobs, kAnn, done, JobState::done));
+  const std::string half = jobs->ask(kBob, JobKind::import_ct, {}).value();
+  now_us_ += limits_.silent_us + 1;
+  ASSERT_TRUE(reaches(*jobs, kBob, half, JobState::interrupted));
+  jobs.reset();
+  now_us_ += limits_.kept_us;
+  limits_.looks_every = std::chrono::hours(1);
+  jobs = open();
+  EXPECT_TRUE(until([&] { return !jobs->find(kAnn, done) && !jobs->find(kBob, half); })) << "at the start too";
+}
+
+// Was: a second server, even one whose port was taken, ended the first one's jobs and deleted what was sent for
+// them.
+TEST_F(JobsTest, AFoldersJobsAreThoseOfOneServer) {
+  auto first = open();
+  const std::string id = first->ask(kAnn, JobKind::import_ct, {}).value();
+  ASSERT_TRUE(first->receive(kAnn, id, 0, "dcm", 0, bytes("abc")));
+  {
+    const auto second = open();
+    EXPECT_TRUE(second->list(kAnn).empty());
+    const auto asked = second->ask(kAnn, JobKind::study_report, {});
+    ASSERT_FALSE(asked);
+    EXPECT_THAT(asked.error().text, HasSubstr("another server"));
+    FakeSite fake;
+    fake.surroundings.jobs = second;
+    FakeBrowser browser(*fake.site);
+    browser.log_in_as(Role::mentor);
+    const std::string token = form_token(browser.get("/jobs").body, "/jobs");
+    const Response refused = browser.post("/jobs", "kind=import&title=&token=" + token);
+    EXPECT_EQ(refused.status, 503);
+    EXPECT_THAT(refused.body, HasSubstr("another server"));
+  }
+  EXPECT_EQ(fixtures::whole_file(folder_ / kAnn / id / "files" / "0000.dcm"), "abc");
+  ASSERT_TRUE(first->all_sent(kAnn, id));
+  ASSERT_TRUE(reaches(*first, kAnn, id, JobState::done));
+  first.reset();
+  EXPECT_TRUE(open()->find(kAnn, id)) << "the next one has them";
+}
+
+TEST_F(JobsTest, OfWhomWasErasedNothingIsWrittenAgain) {
+  led_.let_end(false);
+  const auto jobs = open();
+  const std::string running = jobs->ask(kBob, JobKind::study_report, {{"title", "runs"}}).value();
+  ASSERT_TRUE(reaches(*jobs, kBob, running, JobState::running));
+  ASSERT_TRUE(until([&] { return !jobs->find(kBob, running)->doing.empty(); }));
+  const std::string waiting = jobs->ask(kBob, JobKind::study_report, {{"title", "waits"}}).value();
+  const std::string last = jobs->ask(kAnn, JobKind::study_report, {{"title", "another's"}}).value();
+  fs::remove_all(folder_ / kBob);
+  led_.let_end(true);
+  ASSERT_TRUE(reaches(*jobs, kAnn, last, JobState::done));
+  EXPECT_TRUE(jobs->list(kBob).empty());
+  EXPECT_FALSE(fs::exists(folder_ / kBob));
+  EXPECT_EQ(led_.ran, (std::vector<std::string>{"runs", "another's"}));
+  fs::remove(folder_ / kAnn / last / "results" / "answer.csv");
+  EXPECT_EQ(jobs->load_result(kAnn, last, 0).error().code, "no_job");
+}
+
+TEST_F(JobsTest, AStudysResultsAreOfWhoStillWorksOnIt) {
+  FakeSite fake;
+  fake.surroundings.jobs = open();
+  const std::string person_id = "person-of-researcher";
+  fake.questions.study_relations[person_id][kStudy].own_study = true;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::researcher);
+  const std::string token = form_token(browser.get("/me").body, "/me/facts");
+  const std::string place =
+      header_of(browser.post("/jobs", "kind=study_export&study=" + kStudy + "&token=" + token), "Location");
+  ASSERT_TRUE(until([&] { return browser.get(place).body.find("answer.csv") != std::string::npos; }));
+  EXPECT_EQ(browser.get(place + "/result?n=0").status, 200);
+  fake.questions.study_relations[person_id][kStudy].own_study = false;
+  EXPECT_EQ(browser.get(place + "/result?n=0").status, 404);
 }
 
 TEST_F(JobsTest, ADiskThatIsNearlyFullTakesNothing) {
@@ -263,7 +345,10 @@ TEST_F(JobsTest, AreTheirAskersAlone) {
         }
         answered += own ? 1 : 0;
       }
-      for (const Job& one : jobs->list(owner_id)) static_cast<void>(jobs->cancel(owner_id, one.job_id));
+      for (const Job& one : jobs->list(owner_id)) {
+        EXPECT_TRUE(jobs->cancel(owner_id, one.job_id));
+        EXPECT_TRUE(jobs->remove(owner_id, one.job_id));
+      }
     }
   }
   EXPECT_EQ(answered, 3 * 6);
@@ -297,7 +382,7 @@ TEST_F(JobsTest, AreAskedForByWhoMayDoIt) {
           EXPECT_TRUE(may) << casedb::name_of(role) << kind;
           EXPECT_TRUE(jobs->cancel(person_id, one.job_id));
           EXPECT_TRUE(until([&] { return has_ended(jobs->find(person_id, one.job_id)->state); }));
-          EXPECT_TRUE(jobs->cancel(person_id, one.job_id));
+          EXPECT_TRUE(jobs->remove(person_id, one.job_id));
         }
       }
     }
@@ -343,6 +428,12 @@ TEST_F(JobsTest, APageTellsHowFarItIsAndWhatCameOfIt) {
   EXPECT_THAT(header_of(browser.get(place + "/result?n=0"), "Content-Disposition"), HasSubstr("attachment"));
   for (const char* bad_n : {"", "?n=1", "?n=-1", "?n=x", "?n=99999999999999999999"})
     EXPECT_EQ(browser.get(place + "/result" + bad_n).status, 404) << bad_n;
+  EXPECT_THAT(end, HasSubstr("name=\"remove\" value=\"yes\""));
+  EXPECT_THAT(page.body, Not(HasSubstr("name=\"remove\"")));
+  EXPECT_EQ(header_of(browser.post(place + "/cancel", "token=" + token), "Location"), place);
+  EXPECT_EQ(browser.get(place).status, 200) << "a page that is out of date removes nothing";
+  EXPECT_EQ(header_of(browser.post(place + "/cancel", "remove=yes&token=" + token), "Location"), "/jobs");
+  EXPECT_EQ(browser.get(place).status, 404);
 }
 
 TEST(Base64Url, IsReadBackAndNothingElseIs) {

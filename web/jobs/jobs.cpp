@@ -1,8 +1,13 @@
 #include "web/jobs/jobs.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -19,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kKept = "job.json";
 constexpr const char* kFiles = "files";
 constexpr const char* kResults = "results";
+constexpr const char* kLock = ".lock";
 constexpr const char* kStopped = "The server was stopped before it had ended.";
 constexpr std::size_t kMostSaid = 4000;
 constexpr std::string_view kEndings[] = {"dcm", "nii", "nii.gz", "nrrd", "mha"};
@@ -60,6 +66,17 @@ void make_folder(const fs::path& folder) {
   if (failed) throw base::Failure("disk", "a job's folder cannot be made");
 }
 
+// Of the folder's lock; negative: another has it, or nothing can be written there. The kernel gives it back.
+int locked(const fs::path& folder) {
+  std::error_code none;
+  fs::create_directories(folder, none);
+  fs::permissions(folder, fs::perms::owner_all, none);
+  const int lock = ::open((folder / kLock).c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (lock < 0 || ::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+  ::close(lock);
+  return -1;
+}
+
 base::Error no_job() {
   return {"no_job", "there is no such job"};
 }
@@ -67,7 +84,12 @@ base::Error no_job() {
 }  // namespace
 
 Jobs::Jobs(fs::path folder, JobRunner runner, std::function<std::int64_t()> now_us, const JobLimits& limits)
-    : folder_(std::move(folder)), runner_(std::move(runner)), now_us_(std::move(now_us)), limits_(limits) {
+    : folder_(std::move(folder)),
+      runner_(std::move(runner)),
+      now_us_(std::move(now_us)),
+      limits_(limits),
+      lock_(locked(folder_)) {
+  if (lock_ < 0) return;
   load();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -78,7 +100,8 @@ Jobs::~Jobs() {
     const std::lock_guard lock(mutex_);
     stop_running_.request_stop();
   }
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void Jobs::load() {
@@ -91,7 +114,7 @@ void Jobs::load() {
       if (has_ended(one.state)) continue;
       try {
         end(one, JobState::interrupted, kStopped);
-      } catch (const base::Failure&) {
+      } catch (const std::exception&) {
         // It cannot be written now: the next start says the same.
       }
     }
@@ -135,25 +158,64 @@ void Jobs::end(Job& job, JobState state, std::string said) {
   keep(job);
 }
 
+// Not: its person was erased meanwhile.
+bool Jobs::is_kept(const Job& job) const {
+  std::error_code unknown;
+  return fs::exists(folder_of(job) / kKept, unknown) || unknown;
+}
+
+void Jobs::forget(const std::string& job_id) {
+  const auto found = jobs_.find(job_id);
+  if (found == jobs_.end()) return;
+  std::error_code none;
+  fs::remove_all(folder_of(found->second), none);
+  fs::remove(folder_of(found->second).parent_path(), none);  // when it was their last
+  heard_us_.erase(job_id);
+  jobs_.erase(found);
+}
+
+// A job that cannot be written holds up no other.
+void Jobs::end_or_forget(const std::string& job_id, JobState state, std::string said) {
+  Job& job = jobs_.at(job_id);
+  if (!is_kept(job)) return forget(std::string(job_id));
+  try {
+    end(job, state, std::move(said));
+  } catch (const std::exception&) {
+    // The disk: a server that starts again calls it interrupted.
+  }
+}
+
 void Jobs::drop_old(const std::string& person_id) {
   const std::int64_t now_us = now_us_();
-  for (auto& [job_id, heard] : std::map(heard_us_))
+  for (const auto& [job_id, heard] : std::map(heard_us_))
     if (now_us - heard > limits_.silent_us)
-      end(jobs_.at(job_id), JobState::interrupted, "Nothing more of its files came for an hour.");
+      end_or_forget(job_id, JobState::interrupted, "Nothing more of its files came for an hour.");
   std::vector<const Job*> ended;  // of that person, newest first
   for (const auto& [job_id, job] : jobs_)
     if (job.person_id == person_id && has_ended(job.state)) ended.push_back(&job);
   std::sort(ended.begin(), ended.end(), [](const Job* a, const Job* b) { return a->ended_us > b->ended_us; });
   for (std::size_t i = 0; i < ended.size(); ++i) {
     if (i < limits_.most_kept_of_one && now_us - ended[i]->ended_us < limits_.kept_us) continue;
-    std::error_code none;
-    fs::remove_all(folder_of(*ended[i]), none);
-    jobs_.erase(std::string(ended[i]->job_id));
+    forget(std::string(ended[i]->job_id));
   }
+}
+
+void Jobs::drop_everybodys_old() {
+  std::set<std::string> people;
+  std::vector<std::string> gone;
+  for (const auto& [job_id, job] : jobs_) {
+    people.insert(job.person_id);
+    if (!is_kept(job)) gone.push_back(job_id);
+  }
+  for (const std::string& job_id : gone) forget(job_id);
+  for (const std::string& person_id : people) drop_old(person_id);
 }
 
 base::Result<std::string> Jobs::ask(const std::string& person_id, JobKind kind,
                                     const std::map<std::string, std::string>& wish) {
+  if (lock_ < 0)
+    return base::Error{
+        "no_job", "No jobs are taken here: another server has this library's, or nothing can be written there."};
   const std::lock_guard lock(mutex_);
   drop_old(person_id);
   const auto open = std::count_if(jobs_.begin(), jobs_.end(), [&](const auto& one) {
@@ -200,9 +262,15 @@ base::Result<void> Jobs::receive(const std::string& person_id, const std::string
   Job* job = own(person_id, job_id);
   if (job == nullptr) return no_job();
   if (job->state != JobState::receiving) return base::Error{"bad_piece", "the job takes no files any more"};
-  const bool is_next = number == job->files.size() && at == 0;
-  const bool goes_on = number + 1 == job->files.size() && at == job->files.back().bytes;
   const bool known = std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
+  if (known && number == 0 && at == 0 && !job->files.empty()) {  // a page that was loaded again
+    std::error_code none;
+    fs::remove_all(folder_of(*job) / kFiles, none);
+    make_folder(folder_of(*job) / kFiles);
+    job->files.clear();
+  }
+  const bool is_next = number == job->files.size() && at == 0;
+  const bool goes_on = !job->files.empty() && number == job->files.size() - 1 && at == job->files.back().bytes;
   if (!known || (!is_next && !goes_on)) return base::Error{"bad_piece", "the piece is not the next one of a file"};
   std::uint64_t sent = piece.size();
   for (const JobFile& one : job->files) sent += one.bytes;
@@ -246,11 +314,15 @@ base::Result<void> Jobs::cancel(const std::string& person_id, const std::string&
     stop_running_.request_stop();
   } else if (!has_ended(job->state)) {
     end(*job, JobState::cancelled, "You cancelled it.");
-  } else {
-    std::error_code none;
-    fs::remove_all(folder_of(*job), none);
-    jobs_.erase(job_id);
   }
+  return {};
+}
+
+base::Result<void> Jobs::remove(const std::string& person_id, const std::string& job_id) {
+  const std::lock_guard lock(mutex_);
+  const Job* job = own(person_id, job_id);
+  if (job == nullptr) return no_job();
+  if (has_ended(job->state)) forget(job_id);
   return {};
 }
 
@@ -265,6 +337,8 @@ base::Result<std::vector<std::byte>> Jobs::load_result(const std::string& person
       return no_job();
     file = folder_of(*job) / kResults / job->results[number].name;
   }
+  std::error_code none;
+  if (!fs::is_regular_file(file, none)) return no_job();
   const std::string text = text_of(file);
   const auto bytes = std::as_bytes(std::span(text));
   return std::vector<std::byte>(bytes.begin(), bytes.end());
@@ -276,9 +350,12 @@ void Jobs::run(const std::stop_token& stop) {
     std::stop_token cancelled;
     {
       std::unique_lock lock(mutex_);
+      drop_everybodys_old();
       const auto waits = [](const auto& one) { return one.second.state == JobState::waiting; };
-      asked_.wait(lock, stop, [&] { return std::any_of(jobs_.begin(), jobs_.end(), waits); });
+      const auto any_waits = [&] { return std::any_of(jobs_.begin(), jobs_.end(), waits); };
+      const bool there_is_one = asked_.wait_for(lock, stop, limits_.looks_every, any_waits);
       if (stop.stop_requested()) return;
+      if (!there_is_one) continue;
       Job& first = std::find_if(jobs_.begin(), jobs_.end(), waits)->second;  // ids begin with the time
       first.state = JobState::running;
       stop_running_ = std::stop_source();
@@ -296,26 +373,22 @@ void Jobs::do_one(const Job& job, const std::stop_token& cancelled, const std::s
   };
   JobEnd ended;
   try {
-    make_folder(folder_of(job) / kResults);
+    // Alone, and not what it lies in: that is gone when its person was erased.
+    fs::create_directory(folder_of(job) / kResults);
     ended = runner_(job, folder_of(job), doing, cancelled);
   } catch (const std::exception&) {
     ended = {false, "It could not be run on the server.", {}};  // its text may hold anything
   }
   const std::lock_guard lock(mutex_);
-  Job& kept = jobs_.at(job.job_id);
-  kept.made_id = ended.made_id;
-  try {
-    if (ended.done)
-      end(kept, JobState::done, std::move(ended.said));
-    else if (stop.stop_requested())
-      end(kept, JobState::interrupted, kStopped);
-    else if (cancelled.stop_requested())
-      end(kept, JobState::cancelled, "You cancelled it.");
-    else
-      end(kept, JobState::failed, std::move(ended.said));
-  } catch (const base::Failure&) {
-    // The disk: a server that starts again calls it interrupted.
-  }
+  jobs_.at(job.job_id).made_id = ended.made_id;
+  if (ended.done)
+    end_or_forget(job.job_id, JobState::done, std::move(ended.said));
+  else if (stop.stop_requested())
+    end_or_forget(job.job_id, JobState::interrupted, kStopped);
+  else if (cancelled.stop_requested())
+    end_or_forget(job.job_id, JobState::cancelled, "You cancelled it.");
+  else
+    end_or_forget(job.job_id, JobState::failed, std::move(ended.said));
 }
 
 }  // namespace seldinger::web

@@ -76,6 +76,11 @@ Response show_job_json(Site& site, const Call& call) {
   return job ? json_response(job_json(view_of(*job))) : refusal(404, call.reader);
 }
 
+bool may_work_on(Site& site, const casedb::Account& account, JobKind kind, const std::string& study_id) {
+  const Action action = kind == JobKind::study_report ? Action::plan_study : Action::export_study;
+  return may(account.role, action, site.questions.relation_to_study(account.person_id, study_id));
+}
+
 // Whether the reader may have that done; what is asked for it goes into `wish`.
 bool may_ask(Site& site, const Call& call, JobKind kind, std::map<std::string, std::string>& wish) {
   const casedb::Account& account = call.reader->account;
@@ -85,8 +90,7 @@ bool may_ask(Site& site, const Call& call, JobKind kind, std::map<std::string, s
     return may(account.role, Action::add_case);
   }
   const std::string study_id = call.field("study");
-  const Action action = kind == JobKind::study_report ? Action::plan_study : Action::export_study;
-  if (!may(account.role, action, site.questions.relation_to_study(account.person_id, study_id))) return false;
+  if (!may_work_on(site, account, kind, study_id)) return false;
   const auto study = site.questions.find_study(study_id);
   if (!study) return false;
   wish = {{"study", study_id}, {"title", study->study.title}};
@@ -102,7 +106,7 @@ Response ask_job(Site& site, const Call& call) {
     if (const auto fits = casedb::check_case_title(title); !fits)
       return jobs_page(site, call, 400, "That is no title of a case: " + fits.error().text + ".");
   const auto asked = site.surroundings.jobs->ask(call.reader->account.person_id, *kind, wish);
-  if (!asked) return jobs_page(site, call, 429, asked.error().text);
+  if (!asked) return jobs_page(site, call, asked.error().code == "no_job" ? 503 : 429, asked.error().text);
   return redirect("/jobs/" + *asked);
 }
 
@@ -137,10 +141,12 @@ Response start_job(Site& site, const Call& call) {
 }
 
 Response cancel_job(Site& site, const Call& call) {
-  const auto job = own_job(site, call);
-  if (!job) return refusal(404, call.reader);
-  static_cast<void>(site.surroundings.jobs->cancel(call.reader->account.person_id, call.id));
-  return redirect(has_ended(job->state) ? "/jobs" : "/jobs/" + call.id);
+  if (!own_job(site, call)) return refusal(404, call.reader);
+  const std::string& person_id = call.reader->account.person_id;
+  // A page that is out of date cancels what has ended, and means no results.
+  static_cast<void>(call.field("remove") == "yes" ? site.surroundings.jobs->remove(person_id, call.id)
+                                                  : site.surroundings.jobs->cancel(person_id, call.id));
+  return redirect(own_job(site, call) ? "/jobs/" + call.id : "/jobs");
 }
 
 Response load_result(Site& site, const Call& call) {
@@ -149,6 +155,11 @@ Response load_result(Site& site, const Call& call) {
   std::size_t number = 0;
   if (!job || !asked || !asked->contains("n") || !read_number(asked->at("n"), number) ||
       number >= job->results.size())
+    return refusal(404, call.reader);
+  // Whoever no longer works on the study gets no more of it.
+  const auto study = job->wish.find("study");
+  if (job->kind != JobKind::import_ct &&
+      (study == job->wish.end() || !may_work_on(site, call.reader->account, job->kind, study->second)))
     return refusal(404, call.reader);
   const auto bytes = site.surroundings.jobs->load_result(call.reader->account.person_id, call.id, number);
   if (!bytes) return refusal(404, call.reader);
@@ -182,7 +193,7 @@ constexpr Route kJobRoutes[] = {
     {"POST", "/jobs/{job_id}/start", Action::run_job, false, kOwnJobs, "all files of an import are sent: token",
      start_job, Lane::changes},
     {"POST", "/jobs/{job_id}/cancel", Action::run_job, true, kOwnJobs,
-     "cancels it, or removes one that has ended: token", cancel_job, Lane::changes},
+     "cancels it; with remove=yes removes one that has ended: token", cancel_job, Lane::changes},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/window/editor/draft_preparation.h"
 
+#include <new>
 #include <utility>
 
 #include "casedb/cases/cases.h"
@@ -12,6 +13,11 @@ namespace {
 
 // Above any that a stored case gets: pictures are told apart by them.
 constexpr std::uint64_t kFirstNumber = 1'000'000'000;
+
+// Nobody waits for it any more, and nobody is told.
+base::Error left_off() {
+  return {"bad_preparation", "the preparation was left off"};
+}
 
 }  // namespace
 
@@ -93,6 +99,11 @@ std::shared_ptr<const CheckedCase> DraftPreparation::shown_of(casedb::Prepared p
   return shown;
 }
 
+bool DraftPreparation::stopping() const {
+  const std::lock_guard lock(mutex_);
+  return stopping_;
+}
+
 // The CT as it came, once.
 base::Result<void> DraftPreparation::load() {
   auto library = casedb::Library::open(library_);
@@ -104,32 +115,42 @@ base::Result<void> DraftPreparation::load() {
   if (!volume) return volume.error();
   came_ = std::move(*volume);
   auto histogram = std::make_shared<const HuHistogram>(histogram_of(came_));
-  {
-    const std::lock_guard lock(mutex_);
-    histogram_ = std::move(histogram);
-  }
-  auto as_it_is = casedb::prepare(came_, {});
-  if (!as_it_is) return as_it_is.error();
-  auto original = shown_of(std::move(*as_it_is));
   const std::lock_guard lock(mutex_);
-  original_ = std::move(original);
+  histogram_ = std::move(histogram);
   return {};
+}
+
+// Where it cannot be shown, what is wished may be all the same: a skin of another value, say. It is tried again
+// with the next wish.
+void DraftPreparation::show_original() {
+  if (original()) return;
+  auto as_it_is = casedb::prepare(came_, {});
+  if (!as_it_is || stopping()) return;
+  auto shown = shown_of(std::move(*as_it_is));
+  const std::lock_guard lock(mutex_);
+  original_ = std::move(shown);
 }
 
 base::Result<std::shared_ptr<const PreparedDraft>> DraftPreparation::make(const casedb::Preparation& settings) {
   if (came_.hu.empty())
     if (const auto loaded = load(); !loaded) return loaded.error();
+  if (stopping()) return left_off();
+  show_original();
+  if (stopping()) return left_off();
   auto prepared = casedb::prepare(came_, settings);
   if (!prepared) return prepared.error();
+  if (stopping()) return left_off();
   if (!full_ || full_hu_ != settings.skin_hu) {
     auto full = casedb::full_surface(came_, settings.skin_hu);
     if (!full) return full.error();
     full_ = std::move(*full);
     full_hu_ = settings.skin_hu;
+    if (stopping()) return left_off();
   }
   auto made = std::make_shared<PreparedDraft>();
   made->settings = settings;
   made->fidelity = casedb::fidelity_of(came_, *full_, *prepared);
+  if (stopping()) return left_off();
   made->warnings = prepared->warnings;
   if (!(settings == casedb::Preparation{}))
     made->warnings.push_back(casedb::told_of(settings, *prepared, made->fidelity));
@@ -154,6 +175,8 @@ void DraftPreparation::run() {
       made = make(settings);
     } catch (const base::Failure& failure) {
       made = base::Error{failure.code(), failure.what()};
+    } catch (const std::bad_alloc&) {
+      made = base::Error{"memory", "not enough memory to prepare this CT"};
     }
     const std::lock_guard lock(mutex_);
     error_ = made ? std::nullopt : std::optional(made.error());

@@ -48,7 +48,9 @@ class DraftPreparation {
 
  private:
   void run();
+  bool stopping() const;
   base::Result<void> load();
+  void show_original();
   base::Result<std::shared_ptr<const PreparedDraft>> make(const casedb::Preparation& settings);
   std::shared_ptr<const CheckedCase> shown_of(casedb::Prepared prepared);
 

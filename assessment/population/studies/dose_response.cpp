@@ -66,7 +66,7 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
                             Responses& responses) {
   const std::size_t metrics = responses.size();
   std::vector<bool> varies(metrics, false);
-  std::vector<std::vector<double>> sums(metrics, std::vector<double>(groups.size())), crowds = sums;
+  std::vector<std::vector<double>> sums(metrics, std::vector<double>(groups.size())), weights = sums;
   for (std::size_t first = 1; first <= options.truth_people; first += kCrowd) {
     const std::size_t past = std::min(first + kCrowd, options.truth_people + 1);
     const Rows base = drawn_people(surrogate, others(), options.seed, kTruthStudy, first, past);
@@ -77,15 +77,16 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
         if (std::min(less.size(), more.size()) < kFewest) continue;
         const auto roc = statistics::roc_area(more, less);
         varies[m] = varies[m] || roc.variance() > 0.0;
-        sums[m][s] += roc.area;
-        crowds[m][s] += 1.0;
+        const double pairs = static_cast<double>(less.size()) * static_cast<double>(more.size());
+        sums[m][s] += pairs * roc.area;
+        weights[m][s] += pairs;
         if (first == 1) responses[m][s].paired = paired_correlation(base, rows, m);
       }
     }
   }
   for (std::size_t m = 0; m < metrics; ++m)
     for (std::size_t s = 0; s < groups.size(); ++s)
-      if (crowds[m][s] > 0.0) responses[m][s].area = sums[m][s] / crowds[m][s];
+      if (weights[m][s] > 0.0) responses[m][s].area = sums[m][s] / weights[m][s];
   return varies;
 }
 

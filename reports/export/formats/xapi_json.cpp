@@ -12,14 +12,14 @@ using Json = nlohmann::ordered_json;
 // .invalid is nobody's domain (RFC 2606): these name things and lead nowhere.
 constexpr const char* kHome = "https://seldinger.invalid/";
 
-const char* verb_of(assessment::Verdict verdict) {
-  switch (verdict) {
+const char* verb_of(const XapiAttempt& one) {
+  switch (one.verdict) {
     case assessment::Verdict::passed:
       return "passed";
     case assessment::Verdict::failed:
       return "failed";
     default:
-      return "completed";  // there is no rule, or it could not be graded
+      return one.cut_off ? "terminated" : "completed";  // there is no rule, or it could not be graded
   }
 }
 
@@ -31,9 +31,9 @@ std::string duration_text(double seconds) {
 }
 
 Json statement_of(const XapiAttempt& one) {
-  const std::string verb = verb_of(one.verdict);
-  Json result = {{"completion", true}, {"duration", duration_text(one.duration_s)}};
-  if (verb != "completed") result["success"] = verb == "passed";
+  const std::string verb = verb_of(one);
+  Json result = {{"completion", verb != "terminated"}, {"duration", duration_text(one.duration_s)}};
+  if (verb == "passed" || verb == "failed") result["success"] = verb == "passed";
   return {{"id", one.id},
           {"actor",
            {{"objectType", "Agent"},

@@ -95,7 +95,7 @@ std::string job_state_text(const std::string& state) {
   if (state == "waiting") return "Waits for its turn";
   if (state == "running") return "Runs";
   if (state == "done") return "Done";
-  if (state == "failed") return "Refused";
+  if (state == "failed") return "Failed";
   return state == "cancelled" ? "Cancelled" : "Interrupted";
 }
 
@@ -158,7 +158,9 @@ std::string job_page(const Visitor& visitor, const JobView& job) {
     html.raw("<noscript><p><a href=\"/jobs/").text(job.job_id).raw("\">Look again</a></p></noscript>\n");
   html.raw("<form method=\"post\" action=\"/jobs/").text(job.job_id).raw("/cancel\">\n");
   add_form_token(html, visitor);
-  html.raw("<p><button class=\"quiet\">");
+  html.raw("<p><button class=\"quiet\"");
+  if (job.ended()) html.raw(" name=\"remove\" value=\"yes\"");  // without it, what has ended stays
+  html.raw(">");
   html.text(!job.ended() ? "Cancel" : job.results.empty() ? "Remove it from the list" : "Remove it and its files");
   html.raw("</button></p>\n</form>\n</div>\n<script src=\"/jobs.js\" defer></script>\n");
   return page(job_kind_text(job.kind), visitor, html);

@@ -28,7 +28,8 @@ struct Reliability {
 Reliability value_reliability(const assessment::study::Compared& outcome);
 // The halves' means of a person with two attempts.
 std::optional<std::pair<double, double>> halves_of(const assessment::study::PersonValue& person);
-// Of the mean of a replay's ratings: ICC(1,k). A person's mean over several replays is no less reliable.
+// Of the mean of a replay's ratings: ICC(1,k). A person's mean over several replays is
+// taken to be as reliable as that of one, which is careful only where replays of a person are alike.
 Reliability rating_reliability(const casedb::RatedPeople& rated);
 
 struct Other {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "casedb/cases/authoring.h"
+#include "casedb/cases/case_checks.h"
 #include "casedb/cases/versions.h"
 #include "casedb/json/case_json.h"
 #include "casedb/people/people.h"
@@ -102,6 +103,81 @@ TEST_F(PreparationTest, WhatWouldBeLostIsRefusedAndNothingStays) {
   EXPECT_EQ(code(add_prepared_copy(library_, labelled, copy(2.0), "ann")), "bad_preparation");
   EXPECT_EQ(cases(), 2U);
   EXPECT_EQ(code(add_prepared_copy(library_, labelled, copy(1.0), "ann")), "") << "the same voxels";
+}
+
+// What no command would take today is copied as it is, but not onto another volume.
+TEST_F(PreparationTest, OnlyACopyWithAnotherVolumeIsLookedAtAgain) {
+  const std::string case_id = add_case(library_, sample_case());
+  ASSERT_TRUE(add_lesion(library_, case_id, sample_lesion()));
+  library_.database().run("DROP TRIGGER lesion_is_immutable");
+  library_.database().run("UPDATE lesion SET center_x_lps_mm = center_x_lps_mm + 1000.0");
+  EXPECT_TRUE(new_version(library_, case_id, "ann"));
+  EXPECT_TRUE(duplicate_case(library_, case_id, "ann"));
+  EXPECT_FALSE(add_prepared_copy(library_, case_id, copy(1.0), "ann"));
+}
+
+TEST_F(PreparationTest, AStructureThatWouldBeLostIsRefused) {
+  const std::string case_id = add_case(library_, sample_case());
+  StructureRow drawn;
+  drawn.case_id = case_id;
+  drawn.name = "far slice";
+  drawn.drawn = cases::Sphere{glm::dvec3(sample_volume().lps_from_voxel * glm::dvec4(4.0, 3.0, 4.0, 1.0)), 0.1};
+  ASSERT_TRUE(add_structure(library_, drawn));
+  EXPECT_TRUE(add_prepared_copy(library_, case_id, copy(1.0), "ann"));
+  const auto refused = add_prepared_copy(library_, case_id, copy(2.0), "ann");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "bad_preparation");
+  EXPECT_NE(refused.error().text.find("far slice"), std::string::npos);
+}
+
+// As many voxels elsewhere are other voxels.
+TEST_F(PreparationTest, LabelMapsStayWithTheirGrid) {
+  const std::string case_id = add_case(library_, sample_case());
+  ASSERT_TRUE(add_label_map(library_, case_id,
+                            {std::vector<std::uint8_t>(sample_volume().hu.size(), 1), {"none", "liver"}}));
+  PreparedCopy moved = copy(1.0);
+  moved.volume.lps_from_voxel[3].x += 1.0;
+  EXPECT_FALSE(add_prepared_copy(library_, case_id, moved, "ann"));
+  EXPECT_TRUE(add_prepared_copy(library_, case_id, copy(1.0), "ann"));
+}
+
+// An earlier program kept the denoised CT alone: it is so in every copy, however often it is prepared.
+TEST_F(PreparationTest, ThatTheCtWasDenoisedBeforeStaysTold) {
+  const auto told = [&](const std::string& case_id) {
+    std::vector<std::string> texts;
+    for (const base::Problem& one : find_case(library_, case_id).value().warnings)
+      if (one.code == "denoised") texts.push_back(one.text);
+    return texts;
+  };
+  const auto prepared = [&](const std::string& case_id, double denoise) {
+    PreparedCopy made = copy(1.0);
+    made.settings.denoise = denoise;
+    if (denoise > 0.0) made.warnings.push_back({"denoised", "now"});
+    return add_prepared_copy(library_, case_id, made, "ann").value();
+  };
+  NewCase earlier = sample_case();
+  earlier.warnings.push_back({"denoised", "before"});
+  using Texts = std::vector<std::string>;
+  const std::string first = prepared(add_case(library_, earlier), 0.0), second = prepared(first, 3.0),
+                    third = prepared(second, 5.0), fourth = prepared(third, 0.0);
+  EXPECT_EQ(told(first), Texts{"before"});
+  EXPECT_EQ(told(second), (Texts{"before", "now"}));
+  EXPECT_EQ(told(third), (Texts{"before", "now"}));
+  EXPECT_EQ(told(fourth), Texts{"before"});
+  EXPECT_EQ(told(prepared(prepared(add_case(library_, sample_case()), 3.0), 0.0)), Texts{});
+}
+
+// Surrogates keep marks of before there were preparations.
+TEST_F(PreparationTest, ACaseThatWasNotPreparedKeepsItsMark) {
+  const std::string case_id = add_case(library_, sample_case());
+  const std::string mark = content_mark(library_, case_id);
+  const std::string copied = duplicate_case(library_, case_id, "ann").value(),
+                    before = content_mark(library_, copied);
+  add_preparation(library_.database(), copied, {settings(), find_case(library_, copied).value().volume_sha256});
+  EXPECT_NE(content_mark(library_, copied), before);
+  library_.database().run("DELETE FROM case_preparation");
+  library_.database().run("DROP TABLE case_preparation");
+  EXPECT_EQ(content_mark(library_, case_id), mark);
 }
 
 }  // namespace

@@ -359,6 +359,12 @@ void EditorPanel::draw_pictures(CaseEditor& editor, const Keys& keys, float wide
   ImGui::PopID();
 }
 
+void EditorPanel::end() {
+  case_id_.clear();
+  for (EditorPlanes* planes : {&planes_, &prepared_planes_}) planes->end();
+  for (EditorRoom* room : {&room_, &came_room_, &prepared_room_}) room->end();
+}
+
 void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   CaseEditor& editor = *trainer.editor();
   if (case_id_ != editor.row().case_id) {

@@ -39,7 +39,8 @@ class EditorPlanes {
  public:
   explicit EditorPlanes(gpu::Context& context);
 
-  void begin();  // another case
+  void begin();               // another case
+  void end() { look_ = {}; }  // in every frame without the editor: else a whole volume would stay
   void draw(std::size_t plane, CaseEditor& editor, EditorLook look, const Keys& keys, float width, float height);
   std::optional<std::size_t> under_mouse() const noexcept { return under_mouse_; }
   // The plane that has the keyboard: arrows lead the cursor in it, the page keys through it, Space clicks there.
@@ -74,6 +75,7 @@ class EditorRoom {
   EditorRoom(gpu::Context& context, Camera camera) : context_(context), camera_(std::move(camera)) {}
 
   void begin();
+  void end();  // as of the planes
   void draw(CaseEditor& editor, EditorLook look, float width, float height);
   void toggle_glass() noexcept { glass_ = !glass_; }
 
@@ -112,7 +114,7 @@ class EditorPanel {
         prepared_room_(context, skin_camera_) {}
 
   void draw(Trainer& trainer, const Keys& keys);
-  void end() noexcept { case_id_.clear(); }
+  void end();
   static void tell(CaseEditor& editor, TraceLine& line);
 
  private:

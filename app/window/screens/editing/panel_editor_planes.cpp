@@ -105,6 +105,7 @@ void EditorPlanes::begin() {
   }
   fitted_ = dragged_ = false;
   pressed_.reset();
+  look_ = {};
 }
 
 void EditorPlanes::ask(std::size_t plane, const CaseEditor& editor) {

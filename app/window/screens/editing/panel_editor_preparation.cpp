@@ -64,7 +64,7 @@ void EditorPanel::draw_preparation(CaseEditor& editor) {
   const bool was_in_hand = preparation_in_hand_;
   if (!was_in_hand) preparation_ = preparing.settings();
   preparation_in_hand_ = false;
-  heading("The CT, prepared anew");
+  heading("Prepare the CT again");
   draw_histogram(preparing, preparation_, preparation_in_hand_);
   const auto made = preparing.newest();
   if (const auto error = preparing.error()) {
@@ -74,10 +74,14 @@ void EditorPanel::draw_preparation(CaseEditor& editor) {
     ImGui::TextUnformatted("preparing …");
   } else {
     const casedb::Fidelity& cost = made->fidelity;
-    ImGui::Text("from the full surface: %.2f mm on the mean,", cost.mean_mm);
-    ImGui::Text("95 %% within %.2f, at most %.2f mm", cost.most_95_mm, cost.most_mm);
+    if (cost.compares_skin) {
+      ImGui::Text("from the full surface: %.2f mm on average,", cost.mean_mm);
+      ImGui::Text("95 %% within %.2f, at most %.2f mm", cost.most_95_mm, cost.most_mm);
+    } else {
+      ImGui::TextUnformatted("no skin to compare with the full surface");
+    }
     ImGui::Text("%zu triangles of %zu", cost.triangles, cost.full_triangles);
-    ImGui::Text("HU differ by %.1f on the mean, 95 %% by %.0f", cost.mean_hu, cost.most_95_hu);
+    ImGui::Text("HU differ by %.1f on average, 95 %% by %.0f", cost.mean_hu, cost.most_95_hu);
     note_item("what it costs");
   }
   const bool kept = made && made->settings == preparing.stored();

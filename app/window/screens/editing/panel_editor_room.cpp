@@ -35,6 +35,12 @@ void EditorRoom::begin() {
   camera_->reset();
   made_of_.clear();
   making_ = {};
+  look_ = {};
+}
+
+void EditorRoom::end() {
+  look_ = {};
+  if (making_.valid() && making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) making_ = {};
 }
 
 // Skin and bone take a moment: a thread makes them, and until then the room before is shown.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -120,6 +121,23 @@ TEST_F(DraftPreparationTest, WhatCannotBeIsToldAndTheLastStays) {
   EXPECT_EQ(preparing->error()->code, "bad_preparation");
   EXPECT_EQ(preparing->newest()->settings, casedb::Preparation{});
   EXPECT_FALSE(preparing->keep(*library_, "mona"));
+}
+
+// As import prepares by itself there is no body in it: that is told, and is in the way of nothing else.
+TEST_F(DraftPreparationTest, WhatHasNoUsualSkinIsPreparedAsAsked) {
+  casedb::NewCase thin = fixtures::new_ball({});
+  for (std::int16_t& hu : thin.volume.hu) hu = std::min<std::int16_t>(hu, -500);
+  const auto preparing = this->preparing(casedb::add_case(*library_, thin));
+  ASSERT_TRUE(is_there(*preparing));
+  ASSERT_TRUE(preparing->error());
+  EXPECT_EQ(preparing->error()->code, "no_body");
+  casedb::Preparation settings;
+  settings.skin_hu = -700.0;
+  preparing->wish(settings);
+  ASSERT_TRUE(is_there(*preparing));
+  EXPECT_FALSE(preparing->error());
+  ASSERT_TRUE(preparing->newest());
+  EXPECT_EQ(preparing->newest()->settings, settings);
 }
 
 TEST(HuHistogram, CountsEveryVoxelOnce) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "casedb/import/skin/surface.h"
 
@@ -114,6 +115,7 @@ TEST(Prepare, SurfaceSettingsCostWhatTheyTell) {
   none.skin_grid_mm = 0.5;
   none.skin_smooth = none.skin_decimate = 0.0;
   const Fidelity same = fidelity(none);
+  EXPECT_TRUE(same.compares_skin);
   EXPECT_LT(same.most_mm, 1e-6) << "the full surface itself";
   EXPECT_EQ(same.triangles, same.full_triangles);
   EXPECT_EQ(same.mean_hu, 0.0);
@@ -166,6 +168,24 @@ TEST(Prepare, WhatCannotBeIsRefusedWithItsBounds) {
   EXPECT_EQ(code(ball(), with(&Preparation::shrink_k, 6.0)), "bad_preparation") << "12 mm";
   EXPECT_EQ(code(ball({75, 76, 5}, {1.0, 1.0, 2.0}), with(&Preparation::shrink_k, 2.0)), "bad_preparation");
   EXPECT_EQ(code(ball(), with(&Preparation::shrink_k, 5.0)), "");
+}
+
+TEST(Prepare, WhereThereIsNoSkinNoDistanceIsTold) {
+  EXPECT_EQ(text_of(Fidelity{}).find("mm"), std::string::npos);
+  Fidelity found;
+  found.compares_skin = true;
+  EXPECT_NE(text_of(found).find("0.00 mm from the full surface on average"), std::string::npos);
+}
+
+// Else the body would be the scan's box.
+TEST(Prepare, TheSkinLiesAboveTheLowerClamp) {
+  Preparation pair = with(&Preparation::clamp_low_hu, -700.0);
+  for (const auto& [skin_hu, refused] : {std::pair{-850.0, true}, {-700.0, true}, {-699.0, false}}) {
+    pair.skin_hu = skin_hu;
+    EXPECT_EQ(check_preparation(pair).has_value(), !refused) << skin_hu;
+  }
+  pair.skin_hu = -850.0;
+  EXPECT_EQ(code(ball(), pair), "bad_preparation");
 }
 
 }  // namespace
