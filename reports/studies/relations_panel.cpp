@@ -67,7 +67,10 @@ Html relations_panel(const ValidityReport& report) {
       "persons. The mean rating is of all rated replays of a person at the case, whatever the visit, by raters who "
       "were not told whose it was. Reliability of an outcome: ranks of two halves of each person’s attempts, "
       "stepped "
-      "up (Spearman and Brown 1910); of ratings: ICC of a replay’s mean. Corrected: ρ over the root of both "
+      "up (Spearman and Brown 1910), a half being the mean of its attempts with a value; who has one attempt is in "
+      "ρ "
+      "alone, so it may be corrected too little. Reliability of ratings: ICC of a replay’s mean. Corrected: ρ over "
+      "the root of both "
       "(Spearman 1904), as if both were known exactly, so that its interval is too narrow; beyond 1 it is so by "
       "chance, or since a reliability is too low.</p>\n</article>\n");
 }

@@ -12,7 +12,7 @@ std::string percent_words(const assessment::statistics::Interval& share) {
 }
 
 std::string difference_words(const Subgroup& one, const Subgroup& largest) {
-  if (!one.difference) return "beside it stand the others";
+  if (!one.difference) return "the largest; others are compared with it";
   const auto share = [](const Subgroup& of) {
     return 100.0 * static_cast<double>(of.passes()) / static_cast<double>(of.n());
   };
