@@ -156,6 +156,8 @@ class World {
       } else if (pattern.find("{study_id}") != pattern.npos) {
         asked.path = filled(pattern, study_id_);
         if (route.is_page) asked.holds = name;
+      } else if (pattern.find("{job_id}") != pattern.npos) {
+        asked = {pattern, filled(pattern, own), 404};  // nobody here has one
       } else if (pattern == "/progress" && reads_people) {
         asked.people = role == Role::mentor ? kLearners : kTrainees / kProgrammes;
       } else if (route.is_page) {
