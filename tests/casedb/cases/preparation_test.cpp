@@ -145,7 +145,8 @@ TEST_F(PreparationTest, LabelMapsStayWithTheirGrid) {
 TEST_F(PreparationTest, ThatTheCtWasDenoisedBeforeStaysTold) {
   const auto told = [&](const std::string& case_id) {
     std::vector<std::string> texts;
-    for (const base::Problem& one : find_case(library_, case_id).value().warnings)
+    const CaseRow row = find_case(library_, case_id).value();
+    for (const base::Problem& one : row.warnings)
       if (one.code == "denoised") texts.push_back(one.text);
     return texts;
   };
