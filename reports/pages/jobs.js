@@ -43,9 +43,11 @@ const base64url = (bytes) => {
   return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 };
 
+// Slices are often named by numbers alone; what else has letters for an ending, a README.md say, is none.
 const ending = (name) => {
   const small = name.toLowerCase();
-  return [".nii.gz", ".nii", ".nrrd", ".mha"].find((one) => small.endsWith(one))?.slice(1) || "dcm";
+  const known = [".nii.gz", ".nii", ".nrrd", ".mha"].find((one) => small.endsWith(one))?.slice(1);
+  return known || (/\.(?!dcm$|ima$|img$|dicom$)[a-z]+$/.test(small) ? "other" : "dcm");
 };
 
 async function send(chosen) {
@@ -58,7 +60,7 @@ async function send(chosen) {
       const answer = await post("/files", { number, ending: ending(file.name), at, data: base64url(piece) });
       if (!answer.ok) return tell("Not sent.", await why(answer), 0);
       sent += piece.length;
-      tell("Sends its files", `${number + 1} of ${files.length}`, sent / all);
+      tell("Sending", `file ${number + 1} of ${files.length}`, sent / all);
     }
   }
   const begun = await post("/start", {});

@@ -123,6 +123,7 @@ TEST_F(JobsTest, FilesComeInPiecesInOrder) {
   for (const char* ending : {"../../x", "nhdr", "", "dcm/x", "DCM"})
     EXPECT_EQ(send(0, ending, 0, "x"), "bad_piece");
   EXPECT_EQ(send(SIZE_MAX, "dcm", 0, "x"), "bad_piece") << "its next number is 0";
+  EXPECT_EQ(send(0, "other", 0, "x"), "");
   EXPECT_EQ(send(0, "nii", 0, "xyz"), "");
   EXPECT_EQ(send(1, "dcm", 0, "12345678"), "");
   EXPECT_EQ(send(0, "dcm", 0, "abc"), "") << "begun anew, by a page that was loaded again";

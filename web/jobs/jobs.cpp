@@ -27,7 +27,8 @@ constexpr const char* kResults = "results";
 constexpr const char* kLock = ".lock";
 constexpr const char* kStopped = "The server was stopped before it had ended.";
 constexpr std::size_t kMostSaid = 4000;
-constexpr std::string_view kEndings[] = {"dcm", "nii", "nii.gz", "nrrd", "mha"};
+// Other: named unlike a slice, so that an import tells it from a lost one.
+constexpr std::string_view kEndings[] = {"dcm", "nii", "nii.gz", "nrrd", "mha", "other"};
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

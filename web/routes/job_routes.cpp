@@ -188,7 +188,8 @@ constexpr Route kJobRoutes[] = {
     {"GET", "/jobs/{job_id}/result", Action::run_job, false, kOwnJobs, "one of its files, up to 12 MB; ?n=N",
      load_result, Lane::heavy},
     {"POST", "/jobs/{job_id}/files", Action::run_job, false, kOwnJobs,
-     "a piece of a file of an import: number, ending (dcm, nii, nii.gz, nrrd, mha), at, data in base64url, token",
+     "a piece of a file of an import: number, ending (dcm, nii, nii.gz, nrrd, mha, other), at, data in base64url, "
+     "token",
      receive_piece, Lane::changes},
     {"POST", "/jobs/{job_id}/start", Action::run_job, false, kOwnJobs, "all files of an import are sent: token",
      start_job, Lane::changes},

@@ -109,15 +109,19 @@ std::string jobs_page(const Visitor& visitor, std::span<const JobView> jobs, boo
                       std::string_view problem) {
   Html html;
   html.raw(
-      "<h1>Jobs</h1>\n<p class=\"sub\">What takes longer than a page: it goes on while you do something else, one "
-      "after "
-      "the other. Only you see yours; they are kept for a week.</p>\n");
+      "<h1>Jobs</h1>\n<p class=\"sub\">Work that takes a while goes on here while you do something else, one job "
+      "at a "
+      "time. Only you see your jobs; they are kept for a week.</p>\n");
   if (may_import)
     add_import_form(html, visitor, problem);
   else if (!problem.empty())
     html.raw("<p class=\"problem\" role=\"alert\">").text(problem).raw("</p>\n");
   html.raw("<section>\n<h2>Yours</h2>\n");
-  if (jobs.empty()) html.raw("<p>There is none.</p>\n");
+  if (jobs.empty()) {
+    html.raw("<p>You have none.");
+    if (!may_import) html.raw(" A study’s page begins its report and its export.");
+    html.raw("</p>\n");
+  }
   if (!jobs.empty())
     html.raw(
         "<div class=\"wide\">\n<table class=\"list\">\n<caption>Newest first</caption>\n<thead><tr><th "
