@@ -60,8 +60,8 @@ TEST(Subgroups, FewPersonsAreWithheldWithWhatWouldTellOfThem) {
   persons.add(2, 4.0, "both");
   const auto told = [&] {
     std::vector<bool> all;
-    for (const Subgroup& one : subgroups_of(persons.compared, kAtMost5, persons.backgrounds)[0].groups)
-      all.push_back(one.told);
+    const auto subgroups = subgroups_of(persons.compared, kAtMost5, persons.backgrounds);
+    for (const Subgroup& one : subgroups[0].groups) all.push_back(one.told);
     return all;
   };
   EXPECT_EQ(told(), (std::vector<bool>{true, false, false})) << "20 and 9 of 31 would tell of the 2";
