@@ -126,19 +126,18 @@ const std::string& Arguments::typed(const std::string& what) const {
 std::vector<TypedName> Arguments::names(std::string_view kind) const {
   std::vector<TypedName> found;
   for (std::size_t i = 0; i < std::min(names_.size(), positionals_.size()); ++i)
-    if (names_[i] == kind) found.push_back({names_[i], positionals_[i]});
-  for (const auto& [option, takes] : kinds_)
-    if (takes == kind) found.push_back({option, text(option)});
+    if (names_[i] == kind) found.push_back({names_[i], positionals_[i], i});
+  for (const auto& [option, takes] : kinds_) {
+    if (takes != kind) continue;
+    const std::vector<std::string>& values = all(option);
+    for (std::size_t i = 0; i < values.size(); ++i) found.push_back({option, values[i], i});
+  }
   return found;
 }
 
 void Arguments::settle(const TypedName& name, const std::string& id) const {
-  if (const auto found = values_.find(name.what); found != values_.end()) {
-    found->second.back() = id;
-    return;
-  }
-  for (std::size_t i = 0; i < std::min(names_.size(), positionals_.size()); ++i)
-    if (names_[i] == name.what) positionals_[i] = id;
+  const auto found = values_.find(name.what);
+  (found == values_.end() ? positionals_ : found->second).at(name.place) = id;
 }
 
 std::string Arguments::text(const std::string& option, const std::string& fallback) const {

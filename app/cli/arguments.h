@@ -23,10 +23,12 @@ class UsageError : public std::runtime_error {
 // What follows is no option, whatever it begins with (POSIX.1-2017, XBD 12.2, guideline 10).
 inline constexpr const char* kEndOfOptions = "--";
 
-// Something that has an id, as it was called on the command line: `what` is the option or the word of the synopsis.
+// Something that has an id, as it was called on the command line: `what` is the option or the word of the synopsis,
+// `place` which of the option's values it is, or which of all words.
 struct TypedName {
   std::string what;
   std::string typed;
+  std::size_t place = 0;
 };
 
 class Arguments {
@@ -43,7 +45,7 @@ class Arguments {
   const std::string& typed(const std::string& what) const;
   // What was typed where the synopsis has that word, "CASE": of the words and of options ("--case CASE").
   std::vector<TypedName> names(std::string_view kind) const;
-  // From now on positional() and text() give its id in the place of what was typed (app/acting/names.h).
+  // From now on positional(), text() and all() give its id in the place of what was typed (app/acting/names.h).
   void settle(const TypedName& name, const std::string& id) const;
   // The option's value; `fallback` when it was not given.
   std::string text(const std::string& option, const std::string& fallback = {}) const;

@@ -73,5 +73,18 @@ TEST(Arguments, WhatIsCalledBecomesItsId) {
   EXPECT_EQ(arguments.positional(0), "01a2");
 }
 
+TEST(Arguments, EachValueOfAnOptionBecomesItsOwnId) {
+  constexpr Option kCases[] = {{"--case", "CASE", "a case", true}};
+  constexpr Command kMany{.name = "many", .options = kCases, .summary = "", .run = nullptr};
+  const Arguments arguments(kMany, {"--case", "liver", "--case", "spleen"});
+  const auto called = arguments.names("CASE");
+  ASSERT_EQ(called.size(), 2U);
+  EXPECT_EQ(called[1].typed, "spleen");
+  arguments.settle(called[0], "01a2");
+  EXPECT_EQ(arguments.all("--case"), (std::vector<std::string>{"01a2", "spleen"}));
+  arguments.settle(called[1], "01b3");
+  EXPECT_EQ(arguments.all("--case"), (std::vector<std::string>{"01a2", "01b3"}));
+}
+
 }  // namespace
 }  // namespace seldinger::app
