@@ -123,7 +123,9 @@ const MetricInfo* find_metric(const std::string& id) {
 }
 
 int version_of(const MetricInfo& info, cases::SightLaw law) noexcept {
-  return info.version - (info.by_sight && law == cases::SightLaw::half_slice ? 1 : 0);
+  const bool before_echo = law < cases::SightLaw::echo, before_scatter = law < cases::SightLaw::scatter;
+  return info.version - (info.by_sight != BySight::no && before_echo ? 1 : 0) -
+         (info.by_sight == BySight::since_scatter && before_scatter ? 1 : 0);
 }
 
 std::vector<MetricValue> measure_all(const Signals& signals) {

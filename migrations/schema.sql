@@ -713,7 +713,7 @@ CREATE TABLE training_case (
   CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL), breath_depth REAL NOT NULL DEFAULT 0.0
   CHECK (breath_depth BETWEEN 0 AND 2), breath_period_s REAL NOT NULL DEFAULT 4.0 CHECK (breath_period_s BETWEEN 1 AND 20), breath_irregularity REAL NOT NULL DEFAULT 0.1
   CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom')), burned_in_by_operator INTEGER CHECK (burned_in_by_operator IN (0, 1)), sight_law TEXT NOT NULL DEFAULT 'half_slice'
-  CHECK (sight_law IN ('half_slice', 'echo'))) STRICT;
+  CHECK (sight_law IN ('half_slice', 'echo', 'scatter'))) STRICT;
 
 CREATE TABLE trusted_key (
   public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),

@@ -39,13 +39,14 @@ std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& 
       {{"case_id", case_id}, {"holds", check.holds()}, {"checks", list}, {"rule_may_name", check.rule_may_name}});
 }
 
-std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& needs,
+std::string json_of_needs(const std::string& case_id, cases::SightLaw sight_law, const session::CaseNeeds& needs,
                           const volume::TissueTold& tissue) {
   Json held = Json::array(), sources = Json::array();
   for (const session::CaseNeed& one : needs.held) held.push_back({{"what", one.what}, {"bytes", one.bytes}});
   for (const session::MotionSource& one : needs.sources)
     sources.push_back({{"kind", one.kind}, {"name", one.name}, {"bytes", one.bytes}});
   return text({{"case_id", case_id},
+               {"sight_law", base::name_of(cases::kSightLawNames, sight_law)},
                {"held", held},
                {"displacement",
                 {{"sources", sources},

@@ -21,7 +21,7 @@ struct LabelCount {
 std::string json_of_structure(const std::string& structure_id);
 std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
 std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& check);
-std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& needs,
+std::string json_of_needs(const std::string& case_id, cases::SightLaw sight_law, const session::CaseNeeds& needs,
                           const volume::TissueTold& tissue);
 std::string json_of_rehearsal(const std::string& case_id, const session::Rehearsal& rehearsal);
 std::string json_of_version(const casedb::CaseRow& row);

@@ -41,10 +41,14 @@ int run_case_explain(const Arguments& arguments) {
   }
   const volume::TissueTold tissue = volume::tell_tissue(*volume, *classes);
   if (arguments.has("--json")) {
-    std::fputs(json_of_needs(case_id, needs, tissue).c_str(), stdout);
+    std::fputs(json_of_needs(case_id, row->sight_law, needs, tissue).c_str(), stdout);
     return kDone;
   }
   std::fputs(tissue_text(tissue).c_str(), stdout);
+  std::printf("pictures show    by the law %s: %s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
+              row->sight_law == cases::SightLaw::scatter
+                  ? "X-rays with what the patient scatters, so that a closed field is clearer"
+                  : "X-rays without what the patient scatters");
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
   if (needs.displacement_bytes == 0) {
     std::puts("moving tissue    none: no source, nothing is asked");

@@ -43,7 +43,7 @@ struct Guidance {
   std::uint32_t absent = 0;          // Need, or-ed: no critical structure, no planned entry, …
   std::optional<double> notch_mm{};  // of a core needle: no core is longer
   bool defer_is_right = false;
-  cases::SightLaw sight_law = cases::SightLaw::echo;
+  cases::SightLaw sight_law = cases::kNewestSightLaw;
 };
 std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry,
                            cases::Subject subject = cases::Subject::patient);

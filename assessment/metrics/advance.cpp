@@ -179,12 +179,12 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      "under 1 mm is no advance, nor is breath that slides past a hand at rest (as withdrawals_partial). A "
      "frozen picture shows nothing. Null: under_1_mm_of_advance.",
      "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share,
-     kMedianShare, kSame | kNothingIsNothing, kByTissueSeen, true},
+     kMedianShare, kSame | kNothingIsNothing, kByTissueSeen, BySight::since_echo},
     {"blind_advance", 4, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
      "Length that the hand advanced the tip in tissue while no live picture showed it; as "
      "advance_visible_share counts it.",
-     kSites, &blind_advance, kMedianRatio, kSame | kNothingIsNothing, kByTissueSeen, true},
+     kSites, &blind_advance, kMedianRatio, kSame | kNothingIsNothing, kByTissueSeen, BySight::since_echo},
     {"blind_advance_max", 4, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
      "Longest part of blind_advance from one sight of the tip to the next: of 0.2 s or longer, for a flicker "
@@ -193,7 +193,7 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
      "1: as blind_advance's version 1; one picture of the tip, and a gap, ended it; 2: as blind_advance's version "
      "2; a picture of the tip in a gap could end it; 3" SELDINGER_BY_HALF_SLICE,
-     true},
+     BySight::since_echo},
     {"plane_angle_mean", 3, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kFreehand,
      "Angle between needle and picture plane, averaged over the length by which the hand advanced the tip in "

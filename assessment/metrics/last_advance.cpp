@@ -91,7 +91,7 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},
      kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing,
      "1: without the first 1 mm of a further puncture; 2" SELDINGER_BY_HALF_SLICE,
-     true},
+     BySight::since_echo},
     {"longest_advance_between_sights", 3, "mm", "Advance between sights", Group::picture,
      Direction::lower_is_better, kPicturePlane | kOutOfPlane | kSkin | kPictures | kMotion | kTissue,
      "Greatest length by which the tip was pushed in tissue from one live picture that showed it to the next, from "
@@ -103,7 +103,7 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      kMedianRatio, kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
      "1: a picture of the tip in a gap ended it; without the first 1 mm of a further puncture; "
      "2" SELDINGER_BY_HALF_SLICE,
-     true},
+     BySight::since_echo},
 };
 
 }  // namespace

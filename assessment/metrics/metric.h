@@ -62,6 +62,14 @@ enum Law : std::uint32_t {
   kNothingIsNothing = 1U << 8U,  // who does nothing has no value
 };
 
+// Which laws of sight made another version of it: in a case of an older one it is the version of then, for good
+// (version_of).
+enum class BySight {
+  no,
+  since_echo,    // it asks for a hit, or what pictures under a probe showed
+  since_scatter  // it asks what pictures of any kind showed: there is one for each law
+};
+
 struct MetricInfo {
   const char* id;
   int version;        // higher when the definition changes: stored values keep theirs
@@ -76,9 +84,7 @@ struct MetricInfo {
   Estimand estimand{};
   std::uint32_t laws = 0;    // Law, or-ed
   const char* history = "";  // what each older version did otherwise: "1: ..."
-  // It asks whether pictures showed tip or target, or for a hit. In a case of the older law of sight it is the
-  // version before, for good (version_of).
-  bool by_sight = false;
+  BySight by_sight = BySight::no;
 };
 
 }  // namespace seldinger::assessment

@@ -12,9 +12,11 @@
 
 namespace seldinger::assessment {
 
-// What the version before did otherwise, of a metric that is by_sight.
+// What the versions of older laws of sight did otherwise.
 #define SELDINGER_BY_HALF_SLICE \
   ": what pictures showed by the law half_slice, as cases of that law have it still (decision 0057)."
+#define SELDINGER_BY_ECHO \
+  ": without what is scattered under X-rays, as cases of the law echo have it still (decision 0082)."
 
 std::span<const MetricInfo> endpoint_metrics();
 std::span<const MetricInfo> approach_metrics();

@@ -41,7 +41,7 @@ struct AttemptSetting {
   cases::Subject subject = cases::Subject::patient;
   cases::PatientPosition position = cases::PatientPosition::supine;  // which way a fluoroscope's angles look
   std::optional<bool> defer_is_right{};                              // what the case has to be decided
-  cases::SightLaw sight_law = cases::SightLaw::echo;                 // by which the frames were told
+  cases::SightLaw sight_law = cases::kNewestSightLaw;                // by which the frames were told
   std::optional<double> table_mm{};       // how high, upwards, what the patient lies on is; nothing: not known
   bool breathes = false, yields = false;  // what moves the case's tissue
   bool target_cannot_show = false;        // in no picture of the case (target_view.h)

@@ -53,7 +53,7 @@ struct CaseSetting {
   Difficulty difficulty = Difficulty::moderate;
   std::optional<double> time_limit_s;
   std::optional<int> attempt_limit;
-  cases::SightLaw sight_law = cases::SightLaw::echo;  // of a version made before there was another: half_slice
+  cases::SightLaw sight_law = cases::kNewestSightLaw;  // of an older version: that of its time
   assessment::PassRule rule;
 };
 

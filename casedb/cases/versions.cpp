@@ -104,8 +104,6 @@ base::Result<void> check_burned_in(const CaseRow& row) {
   return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
 }
 
-constexpr const char* kNewestSightLaw = "'echo'";
-
 enum class Copy { next_version, duplicate };
 
 // A volume and skin that a copy gets in place of those of the case.
@@ -120,11 +118,12 @@ struct CopyData {
 void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id, Copy copy_as,
                const CopyData* other) {
   using Column = std::pair<std::string, std::string>;
-  std::vector<Column> own = {{"case_id", ":case_id"},
-                             {"state", "'draft'"},
-                             {"audience", "'everyone'"},
-                             {"sight_law", kNewestSightLaw},
-                             {"created_us", ":created_us"}};
+  std::vector<Column> own = {
+      {"case_id", ":case_id"},
+      {"state", "'draft'"},
+      {"audience", "'everyone'"},
+      {"sight_law", "'" + std::string(base::name_of(cases::kSightLawNames, cases::kNewestSightLaw)) + "'"},
+      {"created_us", ":created_us"}};
   const bool duplicates = copy_as == Copy::duplicate;
   if (duplicates)
     own.insert(own.end(), {Column{"title", ":title"}, {"family_id", "NULL"}, {"version", "1"}});

@@ -73,7 +73,7 @@ void finish(Needs needs, cases::Case& scene) {
   if (needs == Needs::ultrasound) {
     scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
     // Cases of before decision 0061 keep the levels that their classes have.
-    if (scene.sight_law == cases::SightLaw::echo)
+    if (scene.sight_law != cases::SightLaw::half_slice)
       imaging::show_organs(scene.volume, scene.classes, scene.echogenicity);
     imaging::settle_lesions(scene.volume, scene.classes, scene.echogenicity, scene.lesions);
   }

@@ -34,10 +34,6 @@ imaging::Inserted inserted_of(const cases::Case& scene, const cases::NeedleState
   return inserted;
 }
 
-imaging::Pulse pulse_of(const cases::FluoroscopyState& machine) {
-  return {machine.last_technique, machine.arm.sid_mm, machine.magnification, machine.collimator};
-}
-
 }  // namespace
 
 struct FluoroscopySight::Parts {
@@ -101,6 +97,15 @@ struct FluoroscopySight::Parts {
     }
     return metered;
   }
+
+  // What instruments and contrast medium scatter is next to nothing.
+  imaging::Pulse pulse_of(const cases::FluoroscopyState& machine, const Tissue& tissue) {
+    imaging::Pulse pulse{machine.last_technique, machine.arm.sid_mm, machine.magnification, machine.collimator};
+    if (scene.sight_law == cases::SightLaw::scatter)
+      pulse.scatter =
+          imaging::scatter_share(beams, pulse, meter_lengths(machine, geometry(machine, kMeterPx), tissue));
+    return pulse;
+  }
 };
 
 FluoroscopySight::FluoroscopySight(const cases::Case& scene) : parts_(std::make_unique<Parts>(scene)) {}
@@ -115,7 +120,7 @@ FluoroscopySight::Exposed FluoroscopySight::expose(const cases::State& state,
   const imaging::XrayGeometry geometry = parts_->geometry(machine, kMeterPx);
   const imaging::Inserted inserted = inserted_of(scene, state.needle, displacement);
   const Parts::Tissue tissue = parts_->tissue_in(geometry, displacement);
-  const imaging::Pulse pulse = pulse_of(machine);
+  const imaging::Pulse pulse = parts_->pulse_of(machine, tissue);
 
   Exposed exposed;
   imaging::PathLengths lengths = parts_->meter_lengths(machine, geometry, tissue);
@@ -173,7 +178,7 @@ GreyPicture FluoroscopySight::picture(const cases::State& state, std::uint64_t s
       geometry, machine.arm_moving, inserted_of(scene, state.needle, displacement),
       parts_->contrast_in(state, geometry, displacement, settings.threads),
       parts_->beams.at(machine.last_technique.kv), parts_->beams.detector(),
-      cases::field_side_mm(scene.fluoroscope, machine.magnification), pulse_of(machine), settings);
+      cases::field_side_mm(scene.fluoroscope, machine.magnification), parts_->pulse_of(machine, tissue), settings);
   return {picture.grey, picture.width_px, picture.height_px};
 }
 

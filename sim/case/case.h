@@ -70,13 +70,16 @@ enum class Modality { mpr, xray, ultrasound };
 inline constexpr auto kModalityNames =
     base::names<Modality>({{Modality::mpr, "mpr"}, {Modality::xray, "xray"}, {Modality::ultrasound, "ultrasound"}});
 
-// By which law a picture is said to show tip and target (docs/decisions/0057): a case's for good.
+// By which law a picture is said to show tip and target (docs/decisions/0057): a case's for good. Each as the one
+// before, but for:
 enum class SightLaw {
   half_slice,  // the tip within half the slice's width at any tilt, a target of any size by its contrast
-  echo         // the tip by its echo alone, a target by contrast and size
+  echo,        // the tip by its echo alone, a target by contrast and size
+  scatter      // and under X-rays with what is scattered onto the panel (docs/decisions/0082)
 };
-inline constexpr auto kSightLawNames =
-    base::names<SightLaw>({{SightLaw::half_slice, "half_slice"}, {SightLaw::echo, "echo"}});
+inline constexpr auto kSightLawNames = base::names<SightLaw>(
+    {{SightLaw::half_slice, "half_slice"}, {SightLaw::echo, "echo"}, {SightLaw::scatter, "scatter"}});
+inline constexpr SightLaw kNewestSightLaw = SightLaw::scatter;
 
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.
@@ -100,7 +103,7 @@ struct Case {
   std::vector<Structure> structures;
   Instrument instrument;
   Picture picture;
-  SightLaw sight_law = SightLaw::echo;
+  SightLaw sight_law = kNewestSightLaw;
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
   Subject subject = Subject::patient;
   PatientPosition position = PatientPosition::supine;

@@ -87,6 +87,14 @@ TEST(XrayDemo, TheExpertHitsTenOfTenAndTheNoviceIsWorseInTheMean) {
   EXPECT_GT(mean[0].views, mean[1].views);
 }
 
+TEST(XrayDemo, ExplainsThatItScatters) {
+  const auto ran = run(kProgram + " case explain --json --library " + demo().library + " " +
+                           demo().answer.at("case_id").get<std::string>(),
+                       demo().scratch);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(Json::parse(ran.out).at("sight_law"), "scatter");
+}
+
 TEST(XrayDemo, StandsBesideTheOneUnderAProbe) {
   const auto other = run(kProgram + " demo --no-serve --json --library " + demo().library, demo().scratch);
   ASSERT_EQ(other.exit_code, 0) << other.err;

@@ -130,6 +130,8 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   if (!row.clinic.indication.empty()) ImGui::TextWrapped("%s", row.clinic.indication.c_str());
   fact("Guidance", modality_words(row.modality));
   if (row.modality != cases::Modality::xray) fact("Approach", reports::approach_text(row.approach));
+  if (row.modality == cases::Modality::xray && row.sight_law == cases::SightLaw::scatter)
+    fact("Field", "what the patient scatters veils the picture; a closed collimator clears it");
   fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
   const bool phantom = row.subject == cases::Subject::phantom;
   if (phantom)

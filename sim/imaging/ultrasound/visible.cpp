@@ -213,7 +213,7 @@ class Sight {
     const double noise = power(kReceiverNoiseDb), besides_db = decibels(beside + noise);
     const double inside = core * power(echo.inside_db) + (whole - core) * power(echo.rim_db);
     level.contrast_db = decibels(through * (inside + (1.0 - whole) * beside_lossless) + noise) - besides_db;
-    if (view_.sight_law != cases::SightLaw::echo) return level;
+    if (view_.sight_law == cases::SightLaw::half_slice) return level;
     level.least_cnr = kLeastCnrBySize;
     level.cells = seen_cells(cells_of(inner_mm > 0.0 ? inner_mm : r_mm, at));
     if (echo.rim_mm > 0.0 && inner_mm > 0.0)
@@ -267,7 +267,7 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
     if (sight.in_field(tip)) {
       seen.near_plane.tip_2_mm = std::abs(tip.off_plane_mm) <= kNearMm;
       seen.near_plane.tip_5_mm = std::abs(tip.off_plane_mm) <= kLessNearMm;
-      const bool in_reach = view.sight_law == cases::SightLaw::echo || sight.in_slice(tip, 0.0);
+      const bool in_reach = view.sight_law != cases::SightLaw::half_slice || sight.in_slice(tip, 0.0);
       seen.visible.needle_tip = in_reach && sight.needle_stands_out(*needle, tip, true);
     }
     seen.visible.needle_length_mm = sight.visible_shaft_mm(*needle);

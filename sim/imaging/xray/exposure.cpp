@@ -1,6 +1,7 @@
 #include "sim/imaging/xray/exposure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -126,6 +127,46 @@ double dose_area_mgy_cm2(Beams& beams, const Pulse& pulse, double plane_mm) {
          square(plane_mm / pulse.sid_mm);
 }
 
+double scatter_share(Beams& beams, const Pulse& pulse, const PathLengths& field) {
+  CHECK(field.width_px > 0 && field.height_px > 0);
+  const cases::Fluoroscope& f = beams.fluoroscope();
+  const BeamSignal& beam = beams.at(pulse.technique.kv);
+  // How thick the patient is, by steps of water; mineral counts as what it takes off behind an abdomen.
+  constexpr double kStepMm = 5.0, kBehindMm = 200.0;
+  constexpr std::size_t kSteps = 121;
+  const auto weight = [&](double water_mm, double mineral_mm) {
+    return beam.log_share(kBehindMm, 0.0) - beam.log_share(kBehindMm + water_mm, mineral_mm);
+  };
+  const double water_per_mineral = weight(0.0, 1.0) / weight(1.0, 0.0);
+  std::array<double, kSteps> pixels{};
+  const OpenField open = open_field(field.width_px, field.height_px, pulse.collimator);
+  for (int row = open.first_row; row < open.end_row; ++row)
+    for (int column = open.first_column; column < open.end_column; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(field.width_px) +
+                            static_cast<std::size_t>(column);
+      const double water_mm =
+          static_cast<double>(field.water_mm[i]) + water_per_mineral * static_cast<double>(field.mineral_mm[i]);
+      const double steps = std::clamp(water_mm / kStepMm, 0.0, kSteps - 1.0);
+      const auto at = static_cast<std::size_t>(std::min(steps, kSteps - 2.0));
+      const double above = steps - static_cast<double>(at);
+      pixels[at] += 1.0 - above;
+      pixels[at + 1] += above;
+    }
+  std::array<float, kSteps> water_mm, log_shares;
+  for (std::size_t i = 0; i < kSteps; ++i) water_mm[i] = static_cast<float>(kStepMm * static_cast<double>(i));
+  beam.log_shares(water_mm.data(), nullptr, nullptr, nullptr, kSteps, log_shares.data());
+  const double side_mm = f.field_side_mm.at(static_cast<std::size_t>(pulse.magnification));
+  const double field_mm = side_mm * std::sqrt(pulse.collimator.open_u * pulse.collimator.open_v);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    count += pixels[i];
+    sum += pixels[i] * exact_exp(static_cast<double>(log_shares[i])) *
+           scatter_to_primary(
+               {kStepMm * static_cast<double>(i), field_mm, pulse.sid_mm - f.source_isocentre_mm, true});
+  }
+  return sum / count;
+}
+
 double panel_kerma_ngy(Beams& beams, const Pulse& pulse, const PathLengths& field) {
   CHECK(field.width_px > 0 && field.height_px > 0);
   const BeamSignal& beam = beams.at(pulse.technique.kv);
@@ -145,7 +186,8 @@ double panel_kerma_ngy(Beams& beams, const Pulse& pulse, const PathLengths& fiel
     for (const float log_share : log_shares) sum += exact_exp(static_cast<double>(log_share));
   }
   const double pixels = static_cast<double>(columns) * (open.end_row - open.first_row);
-  return sum / pixels * kNgyPerMgy * beam.kerma_mgy_per_mas_share() * pulse.mas() * at_distance(pulse.sid_mm);
+  return (sum / pixels + pulse.scatter.value_or(0.0)) * pulse.grid_passes() * kNgyPerMgy *
+         beam.kerma_mgy_per_mas_share() * pulse.mas() * at_distance(pulse.sid_mm);
 }
 
 cases::ExposureReport meter(Beams& beams, const AutomaticExposure& automatic, const Pulse& pulse,

@@ -4,10 +4,12 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim/case/fluoroscope.h"
 #include "sim/imaging/xray/beam/detector.h"
+#include "sim/imaging/xray/beam/scatter.h"
 #include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::imaging {
@@ -50,13 +52,17 @@ class AutomaticExposure {
   std::vector<double> table_;  // [kv][water]
 };
 
-// One pulse: what was set, and where the panel stood.
+// One pulse: what was set, where the panel stood, and what the patient scatters onto it.
 struct Pulse {
   cases::Technique technique;
   double sid_mm = 1100.0;
   int magnification = 0;
   cases::Collimator collimator;
+  // On every pixel, as a share of the open beam behind the grid that then stands before the panel (scatter_share).
+  // Nothing: primary only, without a grid.
+  std::optional<double> scatter{};
   double mas() const noexcept { return technique.ma * technique.pulse_ms / 1000.0; }
+  double grid_passes() const noexcept { return scatter ? kGridPrimaryShare : 1.0; }
 };
 
 // Pixels whose centres the collimator leaves open: first ≤ x < end.
@@ -69,6 +75,11 @@ OpenField open_field(int width_px, int height_px, const cases::Collimator& colli
 double reference_air_kerma_mgy(Beams& beams, const Pulse& pulse);
 // Air kerma times area of the open field at this distance from the focus, mGy cm²: the same at any distance.
 double dose_area_mgy_cm2(Beams& beams, const Pulse& pulse, double plane_mm);
+
+// What a pulse's `scatter` is behind what `field` holds (as below): the mean over the open field of what each of
+// its pixels would have behind a slab of the water that weakens the beam as much (scatter.h). The patient's middle
+// is taken to lie at the isocentre.
+double scatter_share(Beams& beams, const Pulse& pulse, const PathLengths& field);
 
 // Mean over the measuring field, behind what `field` (the lengths across the whole field, uncollimated) holds, nGy.
 double panel_kerma_ngy(Beams& beams, const Pulse& pulse, const PathLengths& field);

@@ -26,8 +26,8 @@ void over_parts(int count, int threads, const Work& work) {
   base::over_rows(parts, parts, [&](int part) { work(count * part / parts, count * (part + 1) / parts); });
 }
 
-SELDINGER_FOR_AVX2_TOO void means_from_logs(float* values, int count, float open_quanta) noexcept {
-  for (int i = 0; i < count; ++i) values[i] = open_quanta * float_exp(values[i]);
+SELDINGER_FOR_AVX2_TOO void means_from_logs(float* values, int count, float open_quanta, float scatter) noexcept {
+  for (int i = 0; i < count; ++i) values[i] = open_quanta * (float_exp(values[i]) + scatter);
 }
 
 // Along a row whose `margin` values either side are set.
@@ -166,8 +166,9 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
 
   // Quanta of the open beam in a pixel, the detector's blur, and the noise of this frame.
   const double pixel_mm = field_side_mm / width;
-  const float open_quanta = static_cast<float>(beam.open_quanta_per_mas_mm2() * pulse.mas() * pixel_mm * pixel_mm *
-                                               1e6 / (pulse.sid_mm * pulse.sid_mm));
+  const float open_quanta = static_cast<float>(pulse.grid_passes() * beam.open_quanta_per_mas_mm2() * pulse.mas() *
+                                               pixel_mm * pixel_mm * 1e6 / (pulse.sid_mm * pulse.sid_mm));
+  const auto scatter = static_cast<float>(pulse.scatter.value_or(0.0));
   const float log_open = float_log(std::max(open_quanta, 1e-30F));
   const std::vector<float> weights = blur_weights(detector.blur_sigma_mm / pixel_mm);
   const int radius = static_cast<int>(weights.size()) - 1;
@@ -189,7 +190,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
       const auto from = [&](const std::vector<float>& mm) { return mm.empty() ? nullptr : mm.data() + first; };
       beam.log_shares(from(lengths.water_mm), from(lengths.mineral_mm), from(lengths.iron_mm),
                       from(lengths.contrast_mm), columns, means.data());
-      means_from_logs(means.data(), columns, open_quanta);
+      means_from_logs(means.data(), columns, open_quanta, scatter);
       if (settings.noise)
         noisy_counts(means.data(), columns, key, static_cast<std::uint32_t>(first), electronic, values);
       else

@@ -1,8 +1,8 @@
 // One fluoroscopy frame: from path lengths to what a person sees. Order: transmission of the spectrum, quantum
 // noise, spread of light in the screen, logarithm, window. Bright is what lets radiation through: bones and needles
-// are dark, as in live fluoroscopy. Behind the collimator's leaves it is black. Not modelled: scatter (as behind an
-// ideal grid), focal spot, lag; read-out noise is added before the spread of light, after which it belongs, and is
-// small.
+// are dark, as in live fluoroscopy. Behind the collimator's leaves it is black. What the patient scatters lies
+// under it evenly, where the pulse has some. Not modelled: focal spot, lag; read-out noise is added before the
+// spread of light, after which it belongs, and is small.
 #pragma once
 
 #include <cstdint>

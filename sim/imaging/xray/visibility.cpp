@@ -61,19 +61,25 @@ double contrast_between_mm(const volume::Volume* contrast, const glm::dvec3& fro
   return contrast != nullptr ? lengths_between(*contrast, from_lps_mm, to_lps_mm).water_mm : 0.0;
 }
 
-Contrast contrast_on(const volume::Volume& volume, const RayThrough& through, const BeamSignal& beam, double mas,
-                     const Inserted& with, const Inserted& without, double patch_mm2, double contrast_mm,
-                     double contrast_without_mm) {
+Contrast contrast_on(const volume::Volume& volume, const RayThrough& through, const BeamSignal& beam,
+                     const Pulse& pulse, const Inserted& with, const Inserted& without, double patch_mm2,
+                     double contrast_mm, double contrast_without_mm) {
   const RaySegment& ray = through.ray;
   const RayLengths lengths = lengths_between(volume, ray.from_lps_mm, ray.to_lps_mm);
   const double log_with =
       log_share(beam, lengths, overlaid_lengths(volume, ray, with, ProjectionMethod::exact), contrast_mm);
   const double log_without = log_share(
       beam, lengths, overlaid_lengths(volume, ray, without, ProjectionMethod::exact), contrast_without_mm);
-  const double quanta = std::exp(log_without) * beam.open_quanta_per_mas_mm2() * mas * patch_mm2 * 1e6 /
+  const double primary = std::exp(log_without), all = primary + pulse.scatter.value_or(0.0);
+  const double quanta = all * pulse.grid_passes() * beam.open_quanta_per_mas_mm2() * pulse.mas() * patch_mm2 * 1e6 /
                         (through.focus_panel_mm * through.focus_panel_mm);
-  return {std::abs(std::expm1(log_with - log_without)),
-          quanta > 0.0 ? 1.0 / std::sqrt(quanta) : std::numeric_limits<double>::infinity()};
+  Contrast contrast{std::abs(std::expm1(log_with - log_without)),
+                    quanta > 0.0 ? 1.0 / std::sqrt(quanta) : std::numeric_limits<double>::infinity()};
+  if (pulse.scatter) {
+    contrast.relative *= all > 0.0 ? primary / all : 0.0;
+    contrast.least_sigmas = kVisibleSigmasInScatter;
+  }
+  return contrast;
 }
 
 // Half sides of the open field on the panel.
@@ -140,7 +146,7 @@ std::optional<Contrast> needle_contrast(const volume::Volume& volume, const Xray
   Inserted without = inserted;
   without.needle.reset();
   const double contrast_mm = contrast_between_mm(contrast, through->ray.from_lps_mm, through->ray.to_lps_mm);
-  return contrast_on(volume, *through, beam, pulse.mas(), inserted, without, width_mm * length_mm, contrast_mm,
+  return contrast_on(volume, *through, beam, pulse, inserted, without, width_mm * length_mm, contrast_mm,
                      contrast_mm);
 }
 
@@ -168,7 +174,7 @@ std::optional<Contrast> target_contrast(const volume::Volume& volume, const Xray
   const auto at = [&](double t) { return ray.from_lps_mm + t * (ray.to_lps_mm - ray.from_lps_mm); };
   const double contrast_mm = contrast_between_mm(contrast, ray.from_lps_mm, ray.to_lps_mm);
   const double in_target_mm = contrast_between_mm(contrast, at(ball.enter), at(ball.leave));
-  return contrast_on(volume, *through, beam, pulse.mas(), with, without, std::min(shadow_mm2, kLargestPatchMm2),
+  return contrast_on(volume, *through, beam, pulse, with, without, std::min(shadow_mm2, kLargestPatchMm2),
                      contrast_mm, contrast_mm - in_target_mm);
 }
 

@@ -1,5 +1,6 @@
-// What an X-ray picture shows: inside the collimated field, contrast ≥ 3 σ. Expected values along
-// one ray per question: no picture is made, and no seed matters.
+// What an X-ray picture shows: inside the collimated field, contrast ≥ 3 σ; of a pulse with scatter, whose signal
+// and noise that is part of, 5 σ, from which on details are told apart reliably (Rose, J. Opt. Soc. Am. 38 (1948)
+// 196). Expected values along one ray per question: no picture is made, and no seed matters.
 //
 // Contrast is the relative difference of the signal with and without the object on the ray through it, of a drawn
 // target to what lies about it in its place; σ is the
@@ -17,14 +18,15 @@
 
 namespace seldinger::imaging {
 
-constexpr double kVisibleSigmas = 3.0;
+constexpr double kVisibleSigmas = 3.0, kVisibleSigmasInScatter = 5.0;
 constexpr double kTipElementMm = 2.0;
 constexpr double kLargestPatchMm2 = 15.0;  // at the panel
 
 struct Contrast {
   double relative = 0.0;  // of the signal, ≥ 0; with the object against without it
   double sigma = 0.0;     // relative noise of the patch; +∞ where nothing arrives
-  bool visible() const noexcept { return relative >= kVisibleSigmas * sigma; }
+  double least_sigmas = kVisibleSigmas;
+  bool visible() const noexcept { return relative >= least_sigmas * sigma; }
 };
 
 // In `geometry`, of the whole field, with the pulse's technique and collimator (of a parallel geometry also its

@@ -36,21 +36,25 @@ TEST(Visibility, FramesHoldUntilTheNextAtAnyRate) {
 // What was told by the older law of sight stays of the version of that time, with the same value.
 TEST(Visibility, OfTheOlderLawItIsTheVersionBefore) {
   const auto recording = straight([](double t) { return 10.0 * t; }, 5.0);
-  AttemptSetting old = setting();
-  old.sight_law = cases::SightLaw::half_slice;
-  const auto now = measure_all(*make_signals(setting(), recording)),
-             then = measure_all(*make_signals(old, recording));
-  ASSERT_EQ(now.size(), then.size());
-  int by_sight = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const MetricInfo& info = *find_metric(now[i].id);
-    EXPECT_EQ(now[i].version, info.version) << now[i].id;
-    EXPECT_EQ(then[i].version, info.version - (info.by_sight ? 1 : 0)) << now[i].id;
-    EXPECT_GE(then[i].version, 1) << now[i].id;
-    EXPECT_EQ(then[i].value, now[i].value) << now[i].id;
-    by_sight += info.by_sight ? 1 : 0;
+  const auto now = measure_all(*make_signals(setting(), recording));
+  for (const auto& [law, expected] : {std::pair{cases::SightLaw::scatter, std::pair{0, 0}},
+                                      {cases::SightLaw::echo, {4, 0}},
+                                      {cases::SightLaw::half_slice, {7, 4}}}) {
+    AttemptSetting old = setting();
+    old.sight_law = law;
+    const auto then = measure_all(*make_signals(old, recording));
+    ASSERT_EQ(now.size(), then.size());
+    std::pair one_or_two_before{0, 0};
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const MetricInfo& info = *find_metric(now[i].id);
+      EXPECT_EQ(now[i].version, info.version) << now[i].id;
+      EXPECT_GE(then[i].version, 1) << now[i].id;
+      EXPECT_EQ(then[i].value, now[i].value) << now[i].id;
+      if (then[i].version == info.version - 1) ++one_or_two_before.first;
+      if (then[i].version == info.version - 2) ++one_or_two_before.second;
+    }
+    EXPECT_EQ(one_or_two_before, expected) << base::name_of(cases::kSightLawNames, law);
   }
-  EXPECT_EQ(by_sight, 11);
 }
 
 TEST(Visibility, TooLittleTimeOutOfPlaneAndNoTargetAreNull) {

@@ -521,7 +521,7 @@ TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
   library_.database().run("UPDATE training_case SET sight_law = 'half_slice' WHERE case_id = '" + case_id_ + "'");
   EXPECT_EQ(find_case(library_, case_id_).value().sight_law, cases::SightLaw::half_slice);
   const std::string fourth = new_version(library_, case_id_, "ann").value();
-  EXPECT_EQ(find_case(library_, fourth).value().sight_law, cases::SightLaw::echo);
+  EXPECT_EQ(find_case(library_, fourth).value().sight_law, cases::kNewestSightLaw);
   // The new one changes; the old one and its attempt do not.
   CaseSetting other = full_setting();
   other.attempt_limit = 9;

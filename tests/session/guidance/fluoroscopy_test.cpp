@@ -14,6 +14,9 @@
 #include "session/attempt/replayed_attempt.h"
 #include "session/attempt/simulated_attempt.h"
 #include "sim/engine/step.h"
+#include "sim/imaging/xray/c_arm.h"
+#include "sim/imaging/xray/exposure.h"
+#include "sim/imaging/xray/instruments.h"
 #include "sim/tissue/breathing.h"
 #include "tests/fixtures/ball_case.h"
 #include "tests/session/guidance/stored_picture.h"
@@ -185,6 +188,32 @@ TEST(FluoroscopySight, OfWhoLiesStillIsWhatItAlwaysWas) {
   EXPECT_EQ(used.picture(state, 7, breathed_in(scene)).grey, in.grey);
   EXPECT_EQ(used.expose(state, breathed_in(scene)).report,
             FluoroscopySight(scene).expose(state, breathed_in(scene)).report);
+}
+
+// Cases of before scatter nothing: what their pulses ask and show is what it was.
+TEST(FluoroscopySight, ScattersByTheCasesLawOfSight) {
+  cases::Case older = ball();
+  older.sight_law = cases::SightLaw::echo;
+  const auto state = pulse(ball(), {0, -40, 0}, kAcross);
+  FluoroscopySight room(ball()), older_room(older);
+  const auto exposed = room.expose(state), before = older_room.expose(state);
+  EXPECT_EQ(exposed.report.air_kerma_mgy, before.report.air_kerma_mgy) << "of what the tube was set to";
+  EXPECT_NE(exposed.report.next, before.report.next) << "the panel gets scatter, too";
+  EXPECT_NE(room.picture(state, 7).grey, older_room.picture(state, 7).grey);
+  // By hand: primary only.
+  const cases::FluoroscopyState& machine = state.fluoroscopy;
+  const imaging::XrayGeometry geometry =
+      imaging::c_arm_geometry(older.fluoroscope, machine.arm, machine.magnification, 64, older.position);
+  imaging::PathLengths lengths =
+      imaging::XrayCpu(older.volume).project(geometry, imaging::ProjectionMethod::exact, {.threads = 1});
+  const imaging::Inserted inserted{
+      imaging::needle_pose(older.instrument, state.needle.tip_lps_mm, state.needle.direction), older.lesions};
+  imaging::overlay_instruments(older.volume, geometry, inserted, imaging::ProjectionMethod::exact, lengths);
+  imaging::Beams beams(older.fluoroscope);
+  const imaging::Pulse primary{machine.last_technique, machine.arm.sid_mm, machine.magnification,
+                               machine.collimator};
+  EXPECT_EQ(before.report.next,
+            imaging::meter(beams, imaging::AutomaticExposure(older.fluoroscope), primary, lengths, {}).next);
 }
 
 TEST(FluoroscopySight, AutomaticExposureSettlesThroughStep) {

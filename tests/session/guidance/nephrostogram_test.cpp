@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "session/attempt/replayed_attempt.h"
@@ -145,6 +146,37 @@ TEST(Nephrostogram, FillsFromTheNeedleOnAndIsRinsed) {
   sheet.rgb.resize(3 * static_cast<std::size_t>(sheet.width_px) * static_cast<std::size_t>(sheet.height_px));
   for (int i = 0; i < 8; ++i) lay_into(frames[static_cast<std::size_t>(i)], i % 4, i / 4, sheet);
   fixtures::write_png(sheet, fixtures::test_out_dir() / "nephrostogram.png");
+}
+
+// Open and closed field, without and with what the patient scatters (test-out/scatter.png): once it counts, the
+// closed one takes more current for the same signal at the panel.
+TEST(Nephrostogram, ACollimatedPictureIsClearer) {
+  cases::Case older = kidney_torso();
+  older.sight_law = cases::SightLaw::echo;
+  KidneyPatient patient(kLowerCalyx);
+  patient.push(6);
+  patient.wait(12.0);
+  fixtures::RgbPicture sheet;
+  double ma[2][2] = {};
+  int row = 0;
+  for (const cases::Case* scene : {&std::as_const(older), &kidney_torso()}) {
+    FluoroscopySight sight(*scene);
+    for (const int column : {0, 1}) {
+      cases::State state = patient.state();
+      state.fluoroscopy.magnification = 0;
+      if (column == 1) state.fluoroscopy.collimator = {0.35, 0.35};
+      for (int i = 0; i < 6; ++i) state.fluoroscopy.last_technique = sight.expose(state, {}).report.next;
+      ma[row][column] = state.fluoroscopy.last_technique.ma;
+      const GreyPicture picture = sight.picture(state, 7, {});
+      sheet.width_px = 2 * picture.width_px;
+      sheet.height_px = 2 * picture.height_px;
+      sheet.rgb.resize(3 * static_cast<std::size_t>(sheet.width_px) * static_cast<std::size_t>(sheet.height_px));
+      lay_into(picture, column, row, sheet);
+    }
+    ++row;
+  }
+  EXPECT_GT(ma[1][1] / ma[1][0], 1.1 * ma[0][1] / ma[0][0]);
+  fixtures::write_png(sheet, fixtures::test_out_dir() / "scatter.png");
 }
 
 // An artery carries contrast off in a moment, fat about the kidney keeps it where it is; the calyx stays as it was.

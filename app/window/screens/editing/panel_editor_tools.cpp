@@ -499,6 +499,8 @@ bool EditorPanel::draw_setting(CaseEditor& editor) {
   const bool titled = ImGui::IsItemDeactivatedAfterEdit();
   static const std::vector<const casedb::SettingRow*> kRows = casedb::shown_rows(&casedb::SettingRow::editor);
   for (const casedb::SettingRow* row : kRows) changed = draw_setting(*row) || changed;
+  if (editor.row().modality == cases::Modality::xray && editor.row().sight_law == cases::SightLaw::scatter)
+    quiet("Fluoroscopy: what the patient scatters veils the picture; a closed collimator clears it.");
   if (titled) editor.set_title(title_.data());
   return changed;
 }

@@ -42,7 +42,7 @@ struct UltrasoundView {
   double scatterers_per_cell = 8.0;               // in the volume of one PSF: quality against time
   std::optional<double> attenuation_db_cm_mhz{};  // of every soft class
   bool echogenic_needle = false;
-  cases::SightLaw sight_law = cases::SightLaw::echo;  // of the tip, and of what the picture is said to show
+  cases::SightLaw sight_law = cases::kNewestSightLaw;  // of the tip, and of what the picture is said to show
   bool range_error = false;  // tissue shows deeper or shallower than it lies, by the speed of sound above it
   int threads = 0;           // 0: as many as cores
 };

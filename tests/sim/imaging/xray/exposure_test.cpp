@@ -161,6 +161,43 @@ TEST_F(Exposure, ByHandWithinTheLimits) {
   EXPECT_EQ(next().ma, cases::Fluoroscope{}.ma_min);
 }
 
+// Behind a slab it is the law of scatter.h; air scatters nothing, and of a field half of air half as much arrives.
+TEST_F(Exposure, WhatASlabScattersIsByItsLaw) {
+  Pulse pulse{{75.0, 30.0, 8.0}, 1100.0, 0, {}};
+  for (const double open : {1.0, 0.5})
+    for (const double water_mm : {100.0, 203.0, 300.0}) {
+      pulse.collimator = {open, open};
+      const double expected =
+          std::exp(beams.at(75.0).log_share(water_mm, 0.0)) *
+          scatter_to_primary({water_mm, 300.0 * open, 1100.0 - machine.source_isocentre_mm, true});
+      EXPECT_NEAR(scatter_share(beams, pulse, flat(64, water_mm)) / expected, 1.0, 0.005) << water_mm;
+      EXPECT_NEAR(scatter_share(beams, pulse, split(64, 0.0, water_mm)) / expected, 0.5, 0.005) << water_mm;
+    }
+  EXPECT_EQ(scatter_share(beams, pulse, flat(64, 0.0)), 0.0);
+  EXPECT_LT(scatter_share(beams, pulse, flat(64, 200.0, 20.0)), scatter_share(beams, pulse, flat(64, 200.0)));
+  pulse.sid_mm = machine.source_isocentre_mm;  // no gap that the law could speak of
+  EXPECT_EQ(scatter_share(beams, pulse, flat(64, 200.0)), 0.0);
+}
+
+// The panel gets as much as ever, of which scatter is a part; a closed field has less of it and takes more current.
+TEST_F(Exposure, SeesScatterToo) {
+  for (const double water_mm : {150.0, 250.0, 320.0}) {
+    double mgy[2] = {};
+    for (const std::size_t closed : {0U, 1U}) {
+      Pulse pulse{{50.0, 2.0, 8.0}, 1100.0, 0, {closed == 0 ? 1.0 : 0.4, closed == 0 ? 1.0 : 0.4}};
+      for (int frame = 0; frame < 8; ++frame) {
+        pulse.scatter = scatter_share(beams, pulse, flat(64, water_mm));
+        if (frame >= 4) {
+          EXPECT_NEAR(panel_kerma_ngy(beams, pulse, flat(64, water_mm)), kPanelKermaNgy, 0.6);
+        }
+        pulse.technique = meter(beams, automatic, pulse, flat(64, water_mm), asked).next;
+      }
+      mgy[closed] = reference_air_kerma_mgy(beams, pulse);
+    }
+    EXPECT_GT(mgy[1], 1.05 * mgy[0]) << water_mm;
+  }
+}
+
 TEST(OpenField, HoldsThePixelsWhoseCentresAreOpen) {
   const auto expect = [](const OpenField& open, int first_column, int end_column, int first_row, int end_row) {
     EXPECT_EQ(open.first_column, first_column);

@@ -98,6 +98,55 @@ TEST(Picture, KeepsTheDetectorsModulation) {
   }
 }
 
+// A square of mineral in 250 mm of water: what it takes of the signal over the noise beside it, as a picture has
+// them.
+double contrast_to_noise(Chain& chain, double open, bool scatters) {
+  constexpr int kSize = 256, kFrames = 12;
+  PathLengths lengths = flat(kSize, 250.0);
+  const auto from_middle = [](std::size_t i) {
+    const int row = static_cast<int>(i) / kSize, column = static_cast<int>(i) % kSize;
+    return std::max(std::abs(row - kSize / 2), std::abs(column - kSize / 2));
+  };
+  constexpr int kSquarePx = 16, kBesidePx = 40;
+  for (std::size_t i = 0; i < lengths.water_mm.size(); ++i)
+    if (from_middle(i) <= kSquarePx) lengths.mineral_mm[i] = 2.0F;
+  chain.pulse.collimator = {open, open};
+  chain.pulse.scatter.reset();
+  if (scatters) chain.pulse.scatter = scatter_share(chain.beams, chain.pulse, flat(64, 250.0));
+  double sum[2] = {}, squares = 0.0, count[2] = {};
+  for (int frame = 0; frame < kFrames; ++frame) {
+    PictureSettings settings;
+    settings.frame = static_cast<std::uint64_t>(frame);
+    const FluoroscopyPicture& picture = chain.of(lengths, settings);
+    for (std::size_t i = 0; i < lengths.water_mm.size(); ++i) {
+      const int away = from_middle(i);
+      if (away > kBesidePx || (away > kSquarePx - 4 && away < kSquarePx + 4)) continue;
+      const double signal = std::exp(static_cast<double>(picture.log_signal[i]));
+      const std::size_t beside = away > kSquarePx ? 1 : 0;
+      sum[beside] += signal;
+      count[beside] += 1.0;
+      if (beside == 1) squares += signal * signal;
+    }
+  }
+  const double mean = sum[1] / count[1];
+  return (mean - sum[0] / count[0]) / std::sqrt(squares / count[1] - mean * mean);
+}
+
+TEST(Picture, ContrastToNoiseRisesWhenCollimated) {
+  Chain chain;
+  chain.pulse.technique.ma = 200.0;
+  const auto total_of_primary = [&] {
+    return 1.0 + *chain.pulse.scatter / std::exp(chain.beams.at(75.0).log_share(250.0, 0.0));
+  };
+  const double open = contrast_to_noise(chain, 1.0, true), of_open = total_of_primary();
+  const double closed = contrast_to_noise(chain, 0.4, true), of_closed = total_of_primary();
+  EXPECT_GT(closed, 1.1 * open);
+  EXPECT_NEAR(closed / open, std::sqrt(of_open / of_closed), 0.03) << "noise is that of all that arrives";
+  const double primary = contrast_to_noise(chain, 1.0, false);
+  EXPECT_NEAR(contrast_to_noise(chain, 0.4, false) / primary, 1.0, 0.02) << "nothing scatters: no field matters";
+  EXPECT_NEAR(open / primary, std::sqrt(kGridPrimaryShare / of_open), 0.03);
+}
+
 // The noise of a flat field has the power of its quanta, shaped by the square of the blur's response.
 TEST(Picture, NoisePowerHasTheShapeOfTheBlur) {
   Chain chain;

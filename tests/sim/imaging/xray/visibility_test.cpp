@@ -158,6 +158,42 @@ TEST_F(XrayVisible, WhatIsNotBetweenSourceAndPanel) {
   EXPECT_FALSE(see({}).joint);
 }
 
+// Scatter is part of the signal and of its noise, and asks 5 σ.
+TEST_F(XrayVisible, ScatterVeils) {
+  const BeamSignal& beam = beams.at(pulse.technique.kv);
+  const auto of_needle = [&] { return *needle_contrast(body, geometry, beam, pulse, {needle, {}}, 1.0); };
+  const double primary = std::exp(beam.log_share(260.0, 0.0));
+  needle.direction = {1.0, 0.0, 0.0};
+  needle.tip_lps_mm = {1.0, 0.0, 0.0};
+  const Contrast bare = of_needle();
+  pulse.scatter = 0.0;
+  const Contrast behind_grid = of_needle();
+  EXPECT_EQ(behind_grid.relative, bare.relative);
+  EXPECT_NEAR(behind_grid.sigma / bare.sigma, 1.0 / std::sqrt(kGridPrimaryShare), 1e-12);
+  pulse.scatter = 0.6 * primary;
+  const Contrast veiled = of_needle();
+  EXPECT_NEAR(veiled.relative / bare.relative, 1.0 / 1.6, 1e-9);
+  EXPECT_NEAR(veiled.sigma / behind_grid.sigma, 1.0 / std::sqrt(1.6), 1e-9);
+  EXPECT_EQ(Contrast({0.1, 0.025}).visible(), true);
+  EXPECT_EQ(Contrast({0.1, 0.025, veiled.least_sigmas}).visible(), false) << "4 σ";
+
+  // With what this abdomen scatters, needle and opacified calyx are seen all the same.
+  const PathLengths field{1, 1, {260.0F}, {0.0F}, {}};
+  for (int i = 0; i < 4; ++i) {
+    pulse.scatter = scatter_share(beams, pulse, field);
+    pulse.technique = meter(beams, automatic, pulse, field, {}).next;
+  }
+  EXPECT_TRUE(see({needle, {{{0.0, 10.0, 0.0}, 5.0, 300.0}}}).joint);
+  const cases::Lesion faint{{0.0, 10.0, 0.0}, 5.0, 160.0};
+  const Contrast open = of_target(faint);
+  pulse.collimator = {0.35, 0.35};
+  pulse.scatter = scatter_share(beams, pulse, field);
+  const Contrast closed = of_target(faint);
+  EXPECT_GT(closed.relative / closed.sigma, 1.1 * open.relative / open.sigma);
+  pulse.scatter = 1.0;  // as much as the open beam
+  EXPECT_FALSE(of_target(faint).visible());
+}
+
 // A needle over the target is the needle's contrast, not the target's.
 TEST_F(XrayVisible, TheTargetIsSeenWithoutTheNeedle) {
   const cases::Lesion lesion{{0.0, 0.0, 0.0}, 6.0, 20.0};
