@@ -49,7 +49,8 @@ struct UsScatterParameters {
 SHARED_CONSTANT int kUsMostInterfaces = 512;  // of a beam; deeper ones are left out
 SHARED_CONSTANT int kUsMostEchoes = 768;
 SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
-SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u;  // classes of tissue; and what lies before the first:
+SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u, kUsFluid = 4u,
+                     kUsVessel = 12u;  // classes of tissue; before the first:
 SHARED_CONSTANT int kUsGel = 255;
 struct UsLineParameters {
   vec4
@@ -67,6 +68,14 @@ struct UsLineParameters {
   float per_unit;       // what sums are counted in
   float least_side_mm;  // of the sum that tells a normal
   int shifts;
+  int edges;  // of round bodies, cast shadows; and the beam that they meet:
+  float wavelength_mm;
+  float f_number;
+  float aperture_mm;
+  float focus_mm;
+  int padding_1;
+  int padding_2;
+  int padding_3;
 };
 
 // A beam.

@@ -106,9 +106,12 @@ TEST(UltrasoundParameters, OfTheLines) {
                      FIELD(UsLineParameters, close_weight), FIELD(UsLineParameters, most_shift_mm),
                      FIELD(UsLineParameters, sample_mm),    FIELD(UsLineParameters, depth_mm),
                      FIELD(UsLineParameters, turns_per_mm), FIELD(UsLineParameters, per_unit),
-                     FIELD(UsLineParameters, shifts),       FIELD(UsLineParameters, least_side_mm)};
+                     FIELD(UsLineParameters, shifts),       FIELD(UsLineParameters, least_side_mm),
+                     FIELD(UsLineParameters, edges),        FIELD(UsLineParameters, wavelength_mm),
+                     FIELD(UsLineParameters, f_number),     FIELD(UsLineParameters, aperture_mm),
+                     FIELD(UsLineParameters, focus_mm)};
   expect_offsets("ultrasound_lines.comp", "parameters", ours, 6);
-  expect_offsets("ultrasound_echoes.comp", "parameters", ours, 13);
+  expect_offsets("ultrasound_echoes.comp", "parameters", ours, 18);
   const Offsets beams{FIELD(UsBeam, index),         FIELD(UsBeam, index_rest),
                       FIELD(UsBeam, index_along),   FIELD(UsBeam, index_along_rest),
                       FIELD(UsBeam, start_mm),      FIELD(UsBeam, direction),

@@ -63,6 +63,8 @@ class PolarPainter {
     scratch.im.assign(samples, 0.0F);
     if (scratch.line.contact) add_speckle(sums, scratch);
     for (const LineEcho& echo : scratch.line.echoes) add_echo(echo, scratch.re, scratch.im);
+    for (const LineEcho& echo : scratch.line.echoes)
+      if (echo.parting_per_mm != 0.0) weaken_behind(echo, scratch.re, scratch.im);
     for (std::size_t k = 0; k < samples; ++k)
       envelope[k] = std::sqrt(scratch.re[k] * scratch.re[k] + scratch.im[k] * scratch.im[k]);
   }
@@ -137,6 +139,15 @@ class PolarPainter {
       const double level = echo.amplitude * std::exp(-0.5 * off * off);
       re[static_cast<std::size_t>(k)] += static_cast<float>(level * cosine);
       im[static_cast<std::size_t>(k)] += static_cast<float>(level * sine);
+    }
+  }
+
+  void weaken_behind(const LineEcho& echo, std::vector<float>& re, std::vector<float>& im) const {
+    for (std::size_t k = 0; k < re.size(); ++k) {
+      const double behind_mm = (static_cast<double>(k) + 0.5) * fan_.sample_mm - echo.depth_mm;
+      const auto left = static_cast<float>(shaders::us_behind_edge(echo.parting_per_mm, behind_mm));
+      re[k] *= left;
+      im[k] *= left;
     }
   }
 
