@@ -195,6 +195,28 @@ struct UsPulseParameters {
 };
 SHARED_CONSTANT int kUsOutputs = 8;  // samples that one invocation makes
 
+// The mirror that a beam meets: a point of it and its normal (us_mirrored); and beside those how deep the beam
+// meets it, mm, and the share that comes of it. A beam that meets none: deeper than the picture.
+struct UsMirror {
+  vec4 plane;
+  vec4 met;  // x: depth; y: share
+};
+
+struct UsMirrorParameters {
+  int beams;
+  int samples;
+  int curved;
+  float radius_mm;
+  float first_beam;  // of beam 0, and
+  float beam_step;   // between beams: radians, or mm for a straight face
+  float sample_mm;
+  float loss_db_mm;
+  int noisy;
+  uint noise_first;  // the noise's key
+  uint noise_second;
+  float noise_mean_square;
+};
+
 struct UsGreyParameters {
   int width_px;
   int height_px;

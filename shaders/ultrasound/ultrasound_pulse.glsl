@@ -2,7 +2,6 @@
 // some samples of a beam, one after the other, and takes each fine sample for all of them at once.
 // ultrasound_pulse.comp and ultrasound_pulse_shifted.comp differ in where fine samples come from: from the sums, or
 // from where sound of another speed shows them (ULTRASOUND_SHIFTED).
-#include "shared/noise.glsl.h"
 #include "shared/ultrasound_line.glsl.h"
 #include "shared/ultrasound_passes.glsl.h"
 
@@ -20,6 +19,7 @@ layout(std430, binding = 4) readonly buffer Sums { ivec2 sums[]; };
 layout(std430, binding = 5) readonly buffer EchoCounts { int echo_counts[]; };  // a beam
 layout(std430, binding = 6) readonly buffer Echoes { vec4 echoes[]; };          // depth in mm, amplitude (complex), us_parting_per_mm
 layout(std430, binding = 7) writeonly buffer Envelope { float envelope[]; };
+#include "ultrasound/ultrasound_noise.glsl"
 
 void main() {
   int beam = int(gl_WorkGroupID.y);
@@ -65,15 +65,7 @@ void main() {
 
   for (int j = 0; j < kUsOutputs; ++j) {
     float level = left[j] * sqrt(dot(value[j], value[j]));
-    if (parameters.noisy != 0) {
-      uint bits = noise_bits_of(parameters.noise_first, parameters.noise_second, uint(beam_sample + first + j));
-      // Rayleigh length of 24 bits, one of 256 directions.
-      float u = (float(int(bits >> 8u)) + 0.5) * (1.0 / 16777216.0);
-      float length = sqrt(-parameters.noise_mean_square * log(u));
-      vec2 turn = phases[(bits & 255u) * 4u].xy;
-      vec2 sum = vec2(level, 0.0) + length * turn;
-      level = sqrt(dot(sum, sum));
-    }
-    if (first + j < parameters.samples) envelope[beam_sample + first + j] = level;
+    int place = beam_sample + first + j;
+    if (first + j < parameters.samples) envelope[place] = with_noise(level, place);
   }
 }

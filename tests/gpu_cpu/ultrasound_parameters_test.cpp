@@ -99,6 +99,18 @@ TEST(UltrasoundParameters, OfTheLattice) {
   expect_offsets("ultrasound_lattice_beams.comp", "depths", depths, 2);
 }
 
+TEST(UltrasoundParameters, OfMirrors) {
+  const Offsets ours{FIELD(UsMirrorParameters, beams),        FIELD(UsMirrorParameters, samples),
+                     FIELD(UsMirrorParameters, curved),       FIELD(UsMirrorParameters, radius_mm),
+                     FIELD(UsMirrorParameters, first_beam),   FIELD(UsMirrorParameters, beam_step),
+                     FIELD(UsMirrorParameters, sample_mm),    FIELD(UsMirrorParameters, loss_db_mm),
+                     FIELD(UsMirrorParameters, noisy),        FIELD(UsMirrorParameters, noise_first),
+                     FIELD(UsMirrorParameters, noise_second), FIELD(UsMirrorParameters, noise_mean_square)};
+  expect_offsets("ultrasound_mirror.comp", "parameters", ours, ours.size());
+  const Offsets mirrors{FIELD(UsMirror, plane), FIELD(UsMirror, met)};
+  expect_offsets("ultrasound_mirror.comp", "mirrors", mirrors, mirrors.size());
+}
+
 TEST(UltrasoundParameters, OfTheLines) {
   const Offsets ours{FIELD(UsLineParameters, of_class),     FIELD(UsLineParameters, mm_per_voxel),
                      FIELD(UsLineParameters, beams),        FIELD(UsLineParameters, samples),

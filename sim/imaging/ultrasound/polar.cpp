@@ -8,6 +8,7 @@
 #include "sim/base/rows.h"
 #include "sim/imaging/float_math.h"
 #include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/mirror.h"
 #include "sim/imaging/ultrasound/speckle/lattice.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/speckle/pulse.h"
@@ -195,6 +196,7 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
   base::over_rows(
       blocks, view.threads, [] { return Scratch{}; },
       [&](int i, Scratch& scratch) { painter.paint(i * block, std::min(view.beams, (i + 1) * block), scratch); });
+  add_mirrored(view, mirrors_of(view, TissueAt(tissue, inserted), moved, depth_below_skin_mm), picture);
 }
 
 float level_db_of(float amplitude) noexcept {

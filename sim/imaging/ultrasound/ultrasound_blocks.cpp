@@ -31,6 +31,7 @@ static_assert(sizeof(UsTissue) == 1056 && sizeof(UsScatterParameters) == 64 && s
               sizeof(shaders::UsMotion) == 80);
 static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
 static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
+static_assert(sizeof(shaders::UsMirror) == 32 && sizeof(shaders::UsMirrorParameters) == 48);
 static_assert(sizeof(UsLineParameters) == 384 && sizeof(UsBeam) == 272);
 static_assert(shaders::kUsLinesPerBeam == LatticeField::kLinesPerBeam);
 static_assert(shaders::kUsMaxLesions == kMaxLesions && shaders::kUsPhases == kPhases);

@@ -1,5 +1,7 @@
-// Shadows behind the edges of round bodies: the law against Snell's, and the picture.
+// Shadows behind the edges of round bodies, the law against Snell's, and lung as a mirror; in the picture.
 #include "shaders/shared/ultrasound_line.glsl.h"
+#include "shaders/shared/ultrasound_mirror.glsl.h"
+#include "sim/imaging/ultrasound/mirror.h"
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
@@ -89,6 +91,80 @@ TEST(EdgeShadow, IsNotCastByLayers) {
   const PolarPicture now = polar_of(layers, view), before = polar_of(layers, old);
   for (std::size_t i = 0; i < now.envelope.size(); ++i)
     EXPECT_NEAR(now.envelope[i], before.envelope[i], 0.3 * static_cast<double>(before.envelope[i]));
+}
+
+// Liver down to lung, whose surface lies 60 mm deep and rises to the right; in the liver a cyst.
+constexpr double kLungMm = 60.0, kRise = 0.25;
+const glm::dvec3 kAboveLung(-4.0, 42.0, 0.0);
+constexpr double kMirroredMm = 6.0;
+Scene liver_on_lung() {
+  return scene(
+      [](const glm::dvec3& p) {
+        if (p.y > kLungMm - kRise * p.x) return TissueClass::lung;
+        return glm::length(p - kAboveLung) < kMirroredMm ? TissueClass::fluid : TissueClass::liver;
+      },
+      {130, 140, 40}, 1.0);
+}
+
+double around_db(const PolarPicture& picture, const UltrasoundView& view, const glm::dvec3& p) {
+  const BeamAndDepth at = beam_and_depth(view, p.x, p.y);
+  const int b = static_cast<int>(std::lround(at.beam)), k = sample_at(view, at.depth_mm);
+  return level_db(picture, b - 2, b + 3, k - 20, k + 20);
+}
+
+TEST(LungMirror, ShowsWhatLiesBeforeItBehindIt) {
+  const Scene s = liver_on_lung();
+  UltrasoundView view = curved_view(110.0), old = view;
+  old.sight_law = cases::SightLaw::half_slice;
+  const PolarPicture now = polar_of(s, view), before = polar_of(s, old);
+  // Where the cyst and the liver beside it seem to lie, by the closed form of the surface.
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(kRise, 1.0, 0.0));
+  const auto behind = [&](const glm::dvec3& p) {
+    return p + 2.0 * glm::dot(glm::dvec3(0.0, kLungMm, 0.0) - p, normal) * normal;
+  };
+  const glm::dvec3 beside = kAboveLung + glm::dvec3(-14.0, 0.0, 0.0);
+  const double loss_db = shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, view.probe.frequency_mhz);
+  const auto loss_to = [&](const glm::dvec3& p) { return loss_db * beam_and_depth(view, p.x, p.y).depth_mm; };
+  const double reflection = shaders::us_reflection(1.66, 0.20);
+  const double share_db = decibels(shaders::us_mirrored_share(reflection));
+  EXPECT_NEAR(around_db(now, view, behind(beside)) + loss_to(behind(beside)),
+              around_db(now, view, beside) + loss_to(beside) + share_db, 3.0);
+  EXPECT_LT(around_db(now, view, behind(kAboveLung)), around_db(now, view, behind(beside)) - 10.0);
+  EXPECT_LT(around_db(before, old, behind(beside)), around_db(now, view, behind(beside)) - 30.0);
+  // What lies before lung is what it was.
+  for (int b = 0; b < view.beams; ++b)
+    for (int k = 0; k < sample_at(view, 30.0); ++k) ASSERT_EQ(at(now, b, k), at(before, b, k));
+}
+
+TEST(LungMirror, IsNotThereBehindBoneOrGasOrInAir) {
+  for (const TissueClass shade : {TissueClass::bone, TissueClass::gas}) {
+    const Scene s = scene(
+        [&](const glm::dvec3& p) {
+          if (p.y > 20.0 && p.y < 26.0) return shade;
+          return p.y > 60.0 ? TissueClass::lung : TissueClass::liver;
+        },
+        {130, 140, 20}, 1.0);
+    const UltrasoundView view = curved_view(110.0);
+    const TissueAt tissue_at(s.tissue(), {});
+    EXPECT_TRUE(mirrors_of(view, tissue_at, nullptr, {}).empty());
+  }
+  const Scene s = liver_on_lung();
+  const UltrasoundView view = curved_view(110.0);
+  const TissueAt tissue_at(s.tissue(), {});
+  EXPECT_FALSE(mirrors_of(view, tissue_at, nullptr, {}).empty());
+  const std::vector<float> in_air(static_cast<std::size_t>(view.probe.elements), -10.0F);
+  EXPECT_TRUE(mirrors_of(view, tissue_at, nullptr, in_air).empty());
+  EXPECT_TRUE(mirrors_of(curved_view(40.0), tissue_at, nullptr, {}).empty());  // deeper than the picture
+}
+
+// Of one ray twice mirrored nothing is left to do: a mirror is its own way back.
+TEST(LungMirror, IsItsOwnInverse) {
+  const glm::dvec4 mirror(3.0, 50.0, std::sin(0.3), std::cos(0.3));
+  const glm::dvec4 there = shaders::us_mirrored(mirror, -7.0, 80.0);
+  const glm::dvec4 back = shaders::us_mirrored(mirror, there.x, there.y);
+  EXPECT_NEAR(back.x, -7.0, 1e-12);
+  EXPECT_NEAR(back.y, 80.0, 1e-12);
+  EXPECT_LT((there.y - 50.0) * std::cos(0.3) + (there.x - 3.0) * std::sin(0.3), 0.0);  // before it
 }
 
 }  // namespace
