@@ -77,6 +77,38 @@ SHARED real us_facing(real along, real across, real out_of_plane) {
 // A plane seen from its side says nothing of where along the beam it is.
 SHARED_CONSTANT real kUsLeastPlaceCosine = 0.3;
 
+// A round body that sound crosses at another speed is a lens, and behind its edges it is dark (Robinson, Wilson and
+// Kossoff, J. Clin. Ultrasound 9 (1981) 181; LaFollette and Ziskin, Ultrasound Med. Biol. 12 (1986) 953). By
+// Snell's law a ray that meets a ball at an angle θ leaves it turned towards the middle by 2(n − 1)·tan θ, to first
+// order in n − 1, n = c outside / c inside; sin θ is how far off the middle it runs, in radii. One that runs by is
+// not turned.
+SHARED_CONSTANT real kUsMostSine = 0.98;  // a ray along the very edge
+SHARED real us_turned_rad(real n_less_1, real off_radii) {
+  real sine = clamp(off_radii, -kUsMostSine, kUsMostSine);
+  return abs(off_radii) < real(1.0) ? real(2.0) * n_less_1 * sine / sqrt(real(1.0) - sine * sine) : real(0.0);
+}
+// How far the rays of a beam of this width part, a share of the width for each mm behind the body (negative: they
+// meet); 0: of no round body. The ball is told by where the beam leaves it: chord and cosine of the angle to the
+// normal. Smaller ones are narrower than a beam, or single voxels of noise.
+SHARED_CONSTANT real kUsLeastRoundMm = 3.0, kUsLeastChordMm = 2.0;
+SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_mm, real cosine, real width_mm) {
+  real radius_mm = real(0.5) * chord_mm / max(cosine, real(1e-3));
+  real n_less_1 = (real(1.0) + shift_inside) / (real(1.0) + shift_outside) - real(1.0);
+  real off = sqrt(max(real(1.0) - cosine * cosine, real(0.0)));
+  real side = real(0.5) * width_mm / radius_mm;
+  bool is_round = chord_mm >= kUsLeastChordMm && radius_mm >= kUsLeastRoundMm;
+  return is_round ? (us_turned_rad(n_less_1, off - side) - us_turned_rad(n_less_1, off + side)) / width_mm
+                  : real(0.0);
+}
+// Share of the two-way amplitude that is left behind it: power falls as rays part, and an echo comes back the same
+// way. Never more than 1: of how bright a focus is rays know nothing. Never less than this (design): what they
+// leave empty, diffraction fills.
+SHARED_CONSTANT real kUsMostEdgeDb = 12.0;
+SHARED real us_behind_edge(real parting_per_mm, real behind_mm) {
+  real parted = abs(real(1.0) + parting_per_mm * max(behind_mm, real(0.0)));
+  return max(us_amplitude(-kUsMostEdgeDb), real(1.0) / max(parted, real(1.0)));
+}
+
 SHARED_END
 
 #endif

@@ -49,7 +49,8 @@ struct UsScatterParameters {
 SHARED_CONSTANT int kUsMostInterfaces = 512;  // of a beam; deeper ones are left out
 SHARED_CONSTANT int kUsMostEchoes = 768;
 SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
-SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u;  // classes of tissue; and what lies before the first:
+SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u, kUsFluid = 4u,
+                     kUsVessel = 12u;  // classes of tissue; before the first:
 SHARED_CONSTANT int kUsGel = 255;
 struct UsLineParameters {
   vec4
@@ -67,6 +68,14 @@ struct UsLineParameters {
   float per_unit;       // what sums are counted in
   float least_side_mm;  // of the sum that tells a normal
   int shifts;
+  int edges;  // of round bodies, cast shadows; and the beam that they meet:
+  float wavelength_mm;
+  float f_number;
+  float aperture_mm;
+  float focus_mm;
+  int padding_1;
+  int padding_2;
+  int padding_3;
 };
 
 // A beam.
@@ -185,6 +194,28 @@ struct UsPulseParameters {
   int padding_2;
 };
 SHARED_CONSTANT int kUsOutputs = 8;  // samples that one invocation makes
+
+// The mirror that a beam meets: a point of it and its normal (us_mirrored); and beside those how deep the beam
+// meets it, mm, and the share that comes of it. A beam that meets none: deeper than the picture.
+struct UsMirror {
+  vec4 plane;
+  vec4 met;  // x: depth; y: share
+};
+
+struct UsMirrorParameters {
+  int beams;
+  int samples;
+  int curved;
+  float radius_mm;
+  float first_beam;  // of beam 0, and
+  float beam_step;   // between beams: radians, or mm for a straight face
+  float sample_mm;
+  float loss_db_mm;
+  int noisy;
+  uint noise_first;  // the noise's key
+  uint noise_second;
+  float noise_mean_square;
+};
 
 struct UsGreyParameters {
   int width_px;

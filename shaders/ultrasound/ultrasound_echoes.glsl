@@ -28,17 +28,33 @@ int sample_at(float depth_mm) {
   return int(clamp(depth_mm / parameters.sample_mm - 0.5, 0.0, float(parameters.samples - 1)));
 }
 
-void put(int beam, int place, float depth_mm, float amplitude) {
+void put(int beam, int place, float depth_mm, float amplitude, float parting_per_mm) {
   float turns = depth_mm * parameters.turns_per_mm;
   if (parameters.shifts != 0) {
     depth_mm += shift_mm[beam * parameters.samples + sample_at(depth_mm)];
     turns = depth_mm * parameters.turns_per_mm;
   }
   float angle = -6.283185307 * (turns - floor(turns));
-  echoes[beam * kUsMostEchoes + place] = vec4(depth_mm, amplitude * cos(angle), amplitude * sin(angle), 0.0);
+  echoes[beam * kUsMostEchoes + place] = vec4(depth_mm, amplitude * cos(angle), amplitude * sin(angle), parting_per_mm);
 }
 
-void put_interface(int beam, UsBeam at, ivec4 here) {
+// The parting of rays behind a round body that the beam leaves here: the interface before is where it came in.
+float parting_behind(int beam, int place, ivec4 here, float cosine, float depth_mm) {
+  uint inside = uint(here.y & 255);
+  bool leaves = parameters.edges != 0 && place > 0 && (inside == kUsFluid || inside == kUsVessel) &&
+                us_is_matched(parameters.of_class[here.y >> 8].x);
+  ivec4 last = interfaces[beam * kUsMostInterfaces + max(place - 1, 0)];
+  if (!leaves || uint(last.y >> 8) != inside) return 0.0;
+  vec4 within = parameters.of_class[inside];
+  vec4 beyond = parameters.of_class[here.y >> 8];
+  float width_mm = us_lateral_fwhm_mm(max(depth_mm, 1.0), parameters.wavelength_mm, parameters.f_number,
+                                      parameters.aperture_mm, parameters.focus_mm);
+  return us_parting_per_mm((within.z + within.w) / parameters.sample_mm, (beyond.z + beyond.w) / parameters.sample_mm,
+                           float(here.x - last.x) * parameters.sample_mm, cosine, width_mm);
+}
+
+void put_interface(int beam, int place, UsBeam at) {
+  ivec4 here = interfaces[beam * kUsMostInterfaces + place];
   // What is before and after the interface, and what was lost on the way to it.
   int k = here.x;
   int before_class = here.y & 255;
@@ -107,7 +123,7 @@ void put_interface(int beam, UsBeam at, ivec4 here) {
   }
   // Its echo, and the repeats of a strong one.
   float face = reflection * us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_to_db);
-  put(beam, here.z, depth_mm, face);
+  put(beam, here.z, depth_mm, face, parting_behind(beam, place, here, cosine, depth_mm));
   if (abs(reflection) < kUsRepeatsFrom) return;
   int room = float(k) * parameters.sample_mm > parameters.most_shift_mm ? kUsMostAgain : 1 + kUsLensLines;
   for (int i = 1; i < room; ++i) {
@@ -115,7 +131,7 @@ void put_interface(int beam, UsBeam at, ivec4 here) {
     bool rings = depth_mm <= 0.0;
     float again_mm = rings ? float(i) * kUsLensMm : float(i + 1) * depth_mm;
     float amplitude = rings ? us_lens_line(i) : i < kUsMostAgain ? face * us_repeat(i + 1, loss_to_db) : 0.0;
-    put(beam, here.z + i, again_mm, again_mm < parameters.depth_mm ? amplitude : 0.0);
+    put(beam, here.z + i, again_mm, again_mm < parameters.depth_mm ? amplitude : 0.0, 0.0);
   }
 }
 
@@ -125,15 +141,15 @@ void main() {
   if (beam >= parameters.beams) return;
   UsBeam at = beams[beam];
   ivec2 count = counts[beam];
-  if (place < count.x) put_interface(beam, at, interfaces[beam * kUsMostInterfaces + place]);
+  if (place < count.x) put_interface(beam, place, at);
   if (place < at.needle_echoes && at.contact != 0) {
     vec4 echo = at.needle_echo[place];
     float down_db = loss_db[beam * parameters.samples + sample_at(echo.z)];
-    put(beam, count.y + place, echo.x, echo.y * us_amplitude(-down_db));
+    put(beam, count.y + place, echo.x, echo.y * us_amplitude(-down_db), 0.0);
   }
   if (at.contact == 0 && place < kUsLensLines) {
     float depth_mm = float(place + 1) * kUsLensMm;
-    put(beam, place, depth_mm, depth_mm < parameters.depth_mm ? us_lens_line(place + 1) : 0.0);
+    put(beam, place, depth_mm, depth_mm < parameters.depth_mm ? us_lens_line(place + 1) : 0.0, 0.0);
   }
   if (place == 0) echo_counts[beam] = at.contact != 0 ? count.y + at.needle_echoes : kUsLensLines;
 }

@@ -2,8 +2,7 @@
 // some samples of a beam, one after the other, and takes each fine sample for all of them at once.
 // ultrasound_pulse.comp and ultrasound_pulse_shifted.comp differ in where fine samples come from: from the sums, or
 // from where sound of another speed shows them (ULTRASOUND_SHIFTED).
-#include "shared/noise.glsl.h"
-#include "shared/ultrasound.glsl.h"
+#include "shared/ultrasound_line.glsl.h"
 #include "shared/ultrasound_passes.glsl.h"
 
 layout(local_size_x = 64) in;
@@ -18,8 +17,9 @@ layout(std430, binding = 3) readonly buffer Through { float through[]; };  // a 
 layout(std430, binding = 4) readonly buffer Sums { ivec2 sums[]; };
 #endif
 layout(std430, binding = 5) readonly buffer EchoCounts { int echo_counts[]; };  // a beam
-layout(std430, binding = 6) readonly buffer Echoes { vec4 echoes[]; };          // depth in mm, amplitude (complex)
+layout(std430, binding = 6) readonly buffer Echoes { vec4 echoes[]; };          // depth in mm, amplitude (complex), us_parting_per_mm
 layout(std430, binding = 7) writeonly buffer Envelope { float envelope[]; };
+#include "ultrasound/ultrasound_noise.glsl"
 
 void main() {
   int beam = int(gl_WorkGroupID.y);
@@ -47,6 +47,8 @@ void main() {
   float first_mm = (float(first) + 0.5) * parameters.sample_mm;
   float half_mm = 0.5 * float(kUsOutputs - 1) * parameters.sample_mm;
   int echo_count = echo_counts[beam];
+  float left[kUsOutputs];
+  for (int j = 0; j < kUsOutputs; ++j) left[j] = 1.0;
   for (int e = 0; e < echo_count; ++e) {
     vec4 echo = echoes[beam * parameters.most_echoes + e];
     // A loop, because llvmpipe leaves out no `if`.
@@ -56,19 +58,14 @@ void main() {
         float off = (first_mm + float(j) * parameters.sample_mm - echo.x) * per_sigma;
         value[j] += (abs(off) <= 4.0 ? exp(-0.5 * off * off) : 0.0) * echo.yz;
       }
+    for (int edges = echo.w != 0.0 ? 1 : 0; edges > 0; --edges)
+      for (int j = 0; j < kUsOutputs; ++j)
+        left[j] *= us_behind_edge(echo.w, first_mm + float(j) * parameters.sample_mm - echo.x);
   }
 
   for (int j = 0; j < kUsOutputs; ++j) {
-    float level = sqrt(dot(value[j], value[j]));
-    if (parameters.noisy != 0) {
-      uint bits = noise_bits_of(parameters.noise_first, parameters.noise_second, uint(beam_sample + first + j));
-      // Rayleigh length of 24 bits, one of 256 directions.
-      float u = (float(int(bits >> 8u)) + 0.5) * (1.0 / 16777216.0);
-      float length = sqrt(-parameters.noise_mean_square * log(u));
-      vec2 turn = phases[(bits & 255u) * 4u].xy;
-      vec2 sum = vec2(level, 0.0) + length * turn;
-      level = sqrt(dot(sum, sum));
-    }
-    if (first + j < parameters.samples) envelope[beam_sample + first + j] = level;
+    float level = left[j] * sqrt(dot(value[j], value[j]));
+    int place = beam_sample + first + j;
+    if (first + j < parameters.samples) envelope[place] = with_noise(level, place);
   }
 }

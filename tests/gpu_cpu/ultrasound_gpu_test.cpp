@@ -50,6 +50,22 @@ TEST_P(UltrasoundOnGpu, IsTheCpuInLiverAndInLayers) {
   }
 }
 
+TEST_P(UltrasoundOnGpu, IsTheCpuBehindLung) {
+  const Scene s = scene(
+      [](const glm::dvec3& p) {
+        if (p.y > 40.0 + 0.2 * p.x) return TissueClass::lung;
+        return glm::length(p - glm::dvec3(2.0, 22.0, 1.0)) < 6.0 ? TissueClass::fluid : TissueClass::liver;
+      },
+      {110, 130, 40}, 1.5);
+  UltrasoundGpu gpu = gpu_of(s);
+  for (const UltrasoundView& view : views()) {
+    EXPECT_TRUE(alike(screen_pair(gpu, s.tissue(), view)));
+    PolarPicture picture;
+    gpu.polar(view, {}, {}, picture);
+    EXPECT_TRUE(alike(polar_of(s, view), picture, 0.005));
+  }
+}
+
 // The last tissue on the way to the front from the middle.
 glm::dvec3 front_of(const volume::Volume& volume, const std::vector<TissueClass>& classes) {
   glm::ivec3 at = volume.size_voxels / 2, skin = at;

@@ -99,6 +99,18 @@ TEST(UltrasoundParameters, OfTheLattice) {
   expect_offsets("ultrasound_lattice_beams.comp", "depths", depths, 2);
 }
 
+TEST(UltrasoundParameters, OfMirrors) {
+  const Offsets ours{FIELD(UsMirrorParameters, beams),        FIELD(UsMirrorParameters, samples),
+                     FIELD(UsMirrorParameters, curved),       FIELD(UsMirrorParameters, radius_mm),
+                     FIELD(UsMirrorParameters, first_beam),   FIELD(UsMirrorParameters, beam_step),
+                     FIELD(UsMirrorParameters, sample_mm),    FIELD(UsMirrorParameters, loss_db_mm),
+                     FIELD(UsMirrorParameters, noisy),        FIELD(UsMirrorParameters, noise_first),
+                     FIELD(UsMirrorParameters, noise_second), FIELD(UsMirrorParameters, noise_mean_square)};
+  expect_offsets("ultrasound_mirror.comp", "parameters", ours, ours.size());
+  const Offsets mirrors{FIELD(UsMirror, plane), FIELD(UsMirror, met)};
+  expect_offsets("ultrasound_mirror.comp", "mirrors", mirrors, mirrors.size());
+}
+
 TEST(UltrasoundParameters, OfTheLines) {
   const Offsets ours{FIELD(UsLineParameters, of_class),     FIELD(UsLineParameters, mm_per_voxel),
                      FIELD(UsLineParameters, beams),        FIELD(UsLineParameters, samples),
@@ -106,9 +118,12 @@ TEST(UltrasoundParameters, OfTheLines) {
                      FIELD(UsLineParameters, close_weight), FIELD(UsLineParameters, most_shift_mm),
                      FIELD(UsLineParameters, sample_mm),    FIELD(UsLineParameters, depth_mm),
                      FIELD(UsLineParameters, turns_per_mm), FIELD(UsLineParameters, per_unit),
-                     FIELD(UsLineParameters, shifts),       FIELD(UsLineParameters, least_side_mm)};
+                     FIELD(UsLineParameters, shifts),       FIELD(UsLineParameters, least_side_mm),
+                     FIELD(UsLineParameters, edges),        FIELD(UsLineParameters, wavelength_mm),
+                     FIELD(UsLineParameters, f_number),     FIELD(UsLineParameters, aperture_mm),
+                     FIELD(UsLineParameters, focus_mm)};
   expect_offsets("ultrasound_lines.comp", "parameters", ours, 6);
-  expect_offsets("ultrasound_echoes.comp", "parameters", ours, 13);
+  expect_offsets("ultrasound_echoes.comp", "parameters", ours, 18);
   const Offsets beams{FIELD(UsBeam, index),         FIELD(UsBeam, index_rest),
                       FIELD(UsBeam, index_along),   FIELD(UsBeam, index_along_rest),
                       FIELD(UsBeam, start_mm),      FIELD(UsBeam, direction),

@@ -18,6 +18,11 @@ using volume::TissueClass;
 constexpr double kNormalVoxels = 5.5, kLeastNormalMm = 3.3, kMostNormalMm = 6.6;
 constexpr double kPlaceVoxels = 2.5;
 
+// What comes in round bodies: cysts, gallbladder, bladder, vessels.
+constexpr bool is_round(TissueClass tissue) {
+  return tissue == TissueClass::fluid || tissue == TissueClass::vessel;
+}
+
 }  // namespace
 
 struct LineWalker::NeedleCrossing {
@@ -125,6 +130,8 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   const NeedleLine needle = needle_line(beam);
   double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
   bool needle_above = false;
+  const bool edges = view_.sight_law == cases::SightLaw::echo;
+  std::optional<std::size_t> entered;  // the sample behind the last interface that is heard
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);
     const double mrayl = table_[tissue].impedance_mrayl;
@@ -135,8 +142,15 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
     }
     if (k == first && shaders::us_is_matched(mrayl)) before_mrayl = mrayl;
     if (mrayl != before_mrayl && sum_db < kUsDeadDb) {
-      add_interface(path, static_cast<int>(k), before_mrayl, mrayl, sum_db, line);
-      sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
+      const double reflection = shaders::us_reflection(before_mrayl, mrayl);
+      std::optional<Lens> lens;
+      if (edges && entered && line.tissue[*entered] == line.tissue[k - 1] && is_round(line.tissue[k - 1]) &&
+          shaders::us_is_matched(mrayl))
+        lens = {static_cast<double>(k - *entered) * dz, shift_per_mm_[static_cast<std::size_t>(line.tissue[k - 1])],
+                shift_per_mm_[tissue]};
+      add_interface(path, static_cast<int>(k), before_mrayl, mrayl, sum_db, lens, line);
+      if (k == 0 || shaders::us_is_heard(reflection)) entered = k;
+      sum_db += shaders::us_step_loss_db(reflection);
       before_mrayl = mrayl;
     }
     sum_db -= late_mm * loss_db_mm_[tissue];
@@ -187,8 +201,15 @@ void LineWalker::shift(std::size_t first, Line& line) const {
   }
 }
 
+double LineWalker::parting_per_mm(const Lens& lens, double cosine, double depth_mm) const {
+  const double width_mm =
+      shaders::us_lateral_fwhm_mm(std::max(depth_mm, 1.0), shaders::us_wavelength_mm(frequency_mhz_),
+                                  view_.probe.f_number, view_.probe.aperture_mm, view_.focus_mm);
+  return shaders::us_parting_per_mm(lens.shift_inside, lens.shift_outside, lens.chord_mm, cosine, width_mm);
+}
+
 void LineWalker::add_interface(const BeamPath& path, int sample, double before_mrayl, double after_mrayl,
-                               double loss_db, Line& line) const {
+                               double loss_db, const std::optional<Lens>& lens, Line& line) const {
   const double reflection = shaders::us_reflection(before_mrayl, after_mrayl);
   double depth_mm = sample * fan_.sample_mm, cosine = 1.0;
   if (sample > 0) {
@@ -202,7 +223,7 @@ void LineWalker::add_interface(const BeamPath& path, int sample, double before_m
       depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));
   }
   const double face = reflection * shaders::us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_db);
-  line.echoes.push_back({depth_mm, face});
+  line.echoes.push_back({depth_mm, face, lens ? parting_per_mm(*lens, cosine, depth_mm) : 0.0});
   if (std::abs(reflection) < shaders::kUsRepeatsFrom || depth_mm <= 0.0) {
     // Gas at the face itself rings in the lens.
     if (std::abs(reflection) >= shaders::kUsRepeatsFrom)

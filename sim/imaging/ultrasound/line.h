@@ -1,6 +1,7 @@
 // One beam: the tissue along it, what sound loses on the way, and the echoes of what is not speckle.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,9 @@ constexpr bool is_gas(volume::TissueClass tissue) noexcept {
 }
 
 struct LineEcho {
-  double depth_mm;   // as it shows
-  double amplitude;  // of the envelope's peak, loss included
+  double depth_mm;              // as it shows
+  double amplitude;             // of the envelope's peak, loss included
+  double parting_per_mm = 0.0;  // of rays behind it: us_parting_per_mm
 };
 
 struct Line {
@@ -82,8 +84,13 @@ class LineWalker {
   };
   static std::vector<Neighbour> neighbours(const volume::Volume& volume, double radius_voxels);
   Plane plane_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const;
+  // The round body that a beam leaves.
+  struct Lens {
+    double chord_mm, shift_inside, shift_outside;
+  };
   void add_interface(const BeamPath& path, int sample, double before_mrayl, double after_mrayl, double loss_db,
-                     Line& line) const;
+                     const std::optional<Lens>& lens, Line& line) const;
+  double parting_per_mm(const Lens& lens, double cosine, double depth_mm) const;
   double border_mm(const BeamPath& path, std::size_t sample, const Line& line) const;
   struct NeedleCrossing;
   NeedleCrossing crossing(const glm::dvec3& start, const glm::dvec3& direction) const;

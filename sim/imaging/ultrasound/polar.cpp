@@ -8,6 +8,7 @@
 #include "sim/base/rows.h"
 #include "sim/imaging/float_math.h"
 #include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/mirror.h"
 #include "sim/imaging/ultrasound/speckle/lattice.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/speckle/pulse.h"
@@ -63,6 +64,8 @@ class PolarPainter {
     scratch.im.assign(samples, 0.0F);
     if (scratch.line.contact) add_speckle(sums, scratch);
     for (const LineEcho& echo : scratch.line.echoes) add_echo(echo, scratch.re, scratch.im);
+    for (const LineEcho& echo : scratch.line.echoes)
+      if (echo.parting_per_mm != 0.0) weaken_behind(echo, scratch.re, scratch.im);
     for (std::size_t k = 0; k < samples; ++k)
       envelope[k] = std::sqrt(scratch.re[k] * scratch.re[k] + scratch.im[k] * scratch.im[k]);
   }
@@ -140,6 +143,15 @@ class PolarPainter {
     }
   }
 
+  void weaken_behind(const LineEcho& echo, std::vector<float>& re, std::vector<float>& im) const {
+    for (std::size_t k = 0; k < re.size(); ++k) {
+      const double behind_mm = (static_cast<double>(k) + 0.5) * fan_.sample_mm - echo.depth_mm;
+      const auto left = static_cast<float>(shaders::us_behind_edge(echo.parting_per_mm, behind_mm));
+      re[k] *= left;
+      im[k] *= left;
+    }
+  }
+
   const UltrasoundView& view_;
   Fan fan_;
   TissueAt tissue_at_;
@@ -184,6 +196,7 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
   base::over_rows(
       blocks, view.threads, [] { return Scratch{}; },
       [&](int i, Scratch& scratch) { painter.paint(i * block, std::min(view.beams, (i + 1) * block), scratch); });
+  add_mirrored(view, mirrors_of(view, TissueAt(tissue, inserted), moved, depth_below_skin_mm), picture);
 }
 
 float level_db_of(float amplitude) noexcept {

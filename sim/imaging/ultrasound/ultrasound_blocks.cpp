@@ -31,13 +31,16 @@ static_assert(sizeof(UsTissue) == 1056 && sizeof(UsScatterParameters) == 64 && s
               sizeof(shaders::UsMotion) == 80);
 static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
 static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
-static_assert(sizeof(UsLineParameters) == 352 && sizeof(UsBeam) == 272);
+static_assert(sizeof(shaders::UsMirror) == 32 && sizeof(shaders::UsMirrorParameters) == 48);
+static_assert(sizeof(UsLineParameters) == 384 && sizeof(UsBeam) == 272);
 static_assert(shaders::kUsLinesPerBeam == LatticeField::kLinesPerBeam);
 static_assert(shaders::kUsMaxLesions == kMaxLesions && shaders::kUsPhases == kPhases);
 static_assert(shaders::kUsMostNeedleEchoes == kMostNeedleEchoes);
 static_assert(volume::kTissueClasses <= 16);
 static_assert(shaders::kUsAir == static_cast<std::uint32_t>(volume::TissueClass::air) &&
-              shaders::kUsGas == static_cast<std::uint32_t>(volume::TissueClass::gas));
+              shaders::kUsGas == static_cast<std::uint32_t>(volume::TissueClass::gas) &&
+              shaders::kUsFluid == static_cast<std::uint32_t>(volume::TissueClass::fluid) &&
+              shaders::kUsVessel == static_cast<std::uint32_t>(volume::TissueClass::vessel));
 
 constexpr int kTilesAcross = 16;
 
@@ -264,6 +267,11 @@ UsLineParameters line_parameters(const TissueVolume& tissue, const UltrasoundVie
   p.per_unit = 1.0F / SpeckleField::kUnit;
   p.least_side_mm = static_cast<float>(walker.least_side_mm());
   p.shifts = view.range_error ? 1 : 0;
+  p.edges = view.sight_law == cases::SightLaw::echo ? 1 : 0;
+  p.wavelength_mm = static_cast<float>(shaders::us_wavelength_mm(working_mhz(view)));
+  p.f_number = static_cast<float>(view.probe.f_number);
+  p.aperture_mm = static_cast<float>(view.probe.aperture_mm);
+  p.focus_mm = static_cast<float>(view.focus_mm);
   return p;
 }
 
@@ -323,8 +331,8 @@ Lines walked_lines(const UltrasoundView& view, const LineWalker& walker,
     for (const LineEcho& echo : echoes[b]) {
       const double turns = 2.0 * echo.depth_mm / wavelength_mm,
                    angle = -2.0 * std::numbers::pi * (turns - std::floor(turns));
-      *to++ = glm::vec4(
-          glm::dvec4(echo.depth_mm, echo.amplitude * std::cos(angle), echo.amplitude * std::sin(angle), 0.0));
+      *to++ = glm::vec4(glm::dvec4(echo.depth_mm, echo.amplitude * std::cos(angle),
+                                   echo.amplitude * std::sin(angle), echo.parting_per_mm));
     }
   }
   return lines;

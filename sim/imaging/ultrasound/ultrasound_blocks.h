@@ -47,7 +47,8 @@ struct Lines {
   std::vector<float> through;   // a sample: 10^(−dB/20), in what sums are counted in; 0 without contact
   std::vector<float> shift_mm;  // a sample; empty: nowhere
   std::vector<std::int32_t> echo_counts;
-  std::vector<glm::vec4> echoes;  // most_echoes a beam: depth in mm, amplitude at that depth's phase
+  // most_echoes a beam: depth in mm, amplitude at that depth's phase, us_parting_per_mm
+  std::vector<glm::vec4> echoes;
   int most_echoes = 1;
 };
 Lines walked_lines(const UltrasoundView& view, const LineWalker& walker,

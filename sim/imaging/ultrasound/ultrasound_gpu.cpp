@@ -12,6 +12,7 @@
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
 #include "sim/imaging/noise.h"
+#include "sim/imaging/ultrasound/mirror.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/ultrasound_blocks.h"
 #include "sim/imaging/ultrasound/view/motion.h"
@@ -95,12 +96,14 @@ struct UltrasoundGpu::Parts {
         shift(context, shader("ultrasound_shift.comp")),
         pulse(context, shader("ultrasound_pulse.comp")),
         pulse_shifted(context, shader("ultrasound_pulse_shifted.comp")),
+        mirror(context, shader("ultrasound_mirror.comp")),
         grey(context, shader("ultrasound_grey.comp")),
         tissue_block(context, gpu::BufferUse::uniform, sizeof(shaders::UsTissue)),
         lattice_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsLatticeParameters)),
         scatter_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsScatterParameters)),
         line_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsLineParameters)),
         pulse_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsPulseParameters)),
+        mirror_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsMirrorParameters)),
         grey_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsGreyParameters)),
         phases(context, gpu::BufferUse::uniform, kPhases * sizeof(glm::vec4)),
         tiles(context),
@@ -119,6 +122,8 @@ struct UltrasoundGpu::Parts {
         echoes(context),
         laid(context),
         envelope(context),
+        mirrors(context),
+        mirrored(context),
         gain(context),
         map(context),
         picture(context) {
@@ -142,11 +147,13 @@ struct UltrasoundGpu::Parts {
   bool gpu_walks;
   glm::dmat4 voxel_from_lps;
   gpu::Texture voxels;
-  gpu::Program scatter, lattice_noise, lattice_beams, walk, echo, shift, pulse, pulse_shifted, grey;
+  gpu::Program scatter, lattice_noise, lattice_beams, walk, echo, shift, pulse, pulse_shifted, mirror, grey;
   gpu::Buffer tissue_block, lattice_parameters, scatter_parameters, line_parameters, pulse_parameters,
-      grey_parameters, phases;
+      mirror_parameters, grey_parameters, phases;
   Storage tiles, depths, noise, sums, beams, neighbours, loss_db, interfaces, counts, weights, through, shift_mm,
-      echo_counts, echoes, laid, envelope, gain, map, picture;
+      echo_counts, echoes, laid, envelope, mirrors, mirrored, gain, map, picture;
+  bool shows_mirrored = false;  // in the last picture
+  Storage& shown() noexcept { return shows_mirrored ? mirrored : envelope; }
   std::optional<MovedPrograms> moved;
 };
 
@@ -273,7 +280,11 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   const LineWalker walker(view, tissue_at, *tissue.volume, inserted, motion);
   const int most_echoes = gpu_walks ? walk_by_gpu(view, walker, motion, depth_below_skin_mm)
                                     : walk_by_cpu(view, walker, depth_below_skin_mm);
-  write_block(pulse_parameters, imaging::pulse_parameters(view, fine, most_echoes, receiver));
+  const std::vector<shaders::UsMirror> meets = mirrors_of(view, tissue_at, motion, depth_below_skin_mm);
+  shows_mirrored = !meets.empty() && view.beams > 1 && view.samples > 1;
+  // Noise comes last.
+  write_block(pulse_parameters,
+              imaging::pulse_parameters(view, fine, most_echoes, shows_mirrored ? nullptr : receiver));
   weights.write(pulse_weights(view, fine));
   envelope.need(polar * sizeof(float));
   pulse_parameters.bind(0);
@@ -292,6 +303,15 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   echoes.bind(6);
   envelope.bind(7);
   (view.range_error ? pulse_shifted : pulse).dispatch(groups(view.samples, kGroup * kUsOutputs), view.beams, 1);
+  if (!shows_mirrored) return;
+  write_block(mirror_parameters, imaging::mirror_parameters(view, receiver));
+  mirrors.write(meets);
+  mirrored.need(polar * sizeof(float));
+  mirror_parameters.bind(0);
+  mirrors.bind(2);
+  envelope.bind(3);
+  mirrored.bind(4);
+  mirror.dispatch(groups(view.samples, kGroup), view.beams, 1);
 }
 
 UltrasoundGpu::UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue, LinesBy by, TissueMoves moves)
@@ -306,7 +326,7 @@ void UltrasoundGpu::polar(const UltrasoundView& view, const Inserted& inserted,
   picture.beams = view.beams;
   picture.samples = view.samples;
   picture.envelope.resize(static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples));
-  parts_->envelope.buffer().read(std::as_writable_bytes(std::span(picture.envelope)));
+  parts_->shown().buffer().read(std::as_writable_bytes(std::span(picture.envelope)));
 }
 
 void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
@@ -332,7 +352,7 @@ void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
       static_cast<std::size_t>(words) * static_cast<std::size_t>(size.height_px) * sizeof(std::uint32_t);
   parts.picture.need(bytes);
   parts.grey_parameters.bind(0);
-  parts.envelope.bind(1);
+  parts.shown().bind(1);
   parts.gain.bind(2);
   parts.map.bind(3);
   parts.picture.bind(4);
@@ -351,12 +371,14 @@ void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
 std::size_t UltrasoundGpu::buffer_bytes() const noexcept {
   Parts& p = *parts_;
   std::size_t bytes = 0;
-  for (const gpu::Buffer* buffer : {&p.tissue_block, &p.lattice_parameters, &p.scatter_parameters,
-                                    &p.line_parameters, &p.pulse_parameters, &p.grey_parameters, &p.phases})
+  for (const gpu::Buffer* buffer :
+       {&p.tissue_block, &p.lattice_parameters, &p.scatter_parameters, &p.line_parameters, &p.pulse_parameters,
+        &p.mirror_parameters, &p.grey_parameters, &p.phases})
     bytes += buffer->size();
-  for (Storage* storage : {&p.tiles, &p.depths, &p.noise, &p.sums, &p.beams, &p.neighbours, &p.loss_db,
-                           &p.interfaces, &p.counts, &p.weights, &p.through, &p.shift_mm, &p.echo_counts, &p.echoes,
-                           &p.laid, &p.envelope, &p.gain, &p.map, &p.picture})
+  for (Storage* storage :
+       {&p.tiles,      &p.depths,   &p.noise,   &p.sums,     &p.beams,    &p.neighbours,  &p.loss_db,
+        &p.interfaces, &p.counts,   &p.weights, &p.through,  &p.shift_mm, &p.echo_counts, &p.echoes,
+        &p.laid,       &p.envelope, &p.mirrors, &p.mirrored, &p.gain,     &p.map,         &p.picture})
     bytes += storage->buffer().size();
   if (p.moved) bytes += p.moved->block.size() + p.moved->slab.buffer().size() + p.moved->paths.buffer().size();
   return bytes;

@@ -4,8 +4,9 @@
 //
 // Order: tissue along the beam → two-way loss (a prefix sum in dB) → scatterers on a lattice in tissue coordinates
 // under a beam whose width depends on depth → echoes of interfaces and needle → pulse on the complex baseband →
-// envelope; then noise, gain, logarithm against a fixed reference, scan conversion, grey. Not modelled: refraction,
-// compounding, persistence.
+// envelope; lung as a mirror, which alone looks across beams (mirror.h); then noise, gain, logarithm against a
+// fixed reference, scan conversion, grey. Refraction: only how it darkens what lies behind the edges of round
+// bodies. Not modelled: compounding, persistence.
 #pragma once
 
 #include <array>

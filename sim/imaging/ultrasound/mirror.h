@@ -1,0 +1,26 @@
+// Lung as a mirror: which beams meet it and how it lies there, and the picture with what it shows
+// (docs/decisions/0081).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "shaders/shared/ultrasound_passes.glsl.h"
+#include "sim/imaging/noise.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/imaging/ultrasound/view/motion.h"
+
+namespace seldinger::imaging {
+
+// One a beam; none at all where no beam meets any, or by the law half_slice, whose pictures stay as they were. The
+// surface is a straight line through where neighbouring beams meet it. `motion`: of tissue that moves; else null.
+std::vector<shaders::UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at,
+                                          const PictureMotion* motion, std::span<const float> depth_below_skin_mm);
+
+// What a shader is told that does the same, and then adds the receiver's noise.
+shaders::UsMirrorParameters mirror_parameters(const UltrasoundView& view, const NoiseKey* receiver);
+
+// Adds to the envelope what shows behind the mirrors.
+void add_mirrored(const UltrasoundView& view, std::span<const shaders::UsMirror> mirrors, PolarPicture& picture);
+
+}  // namespace seldinger::imaging

@@ -1,0 +1,171 @@
+// Shadows behind the edges of round bodies, the law against Snell's, and lung as a mirror; in the picture.
+#include "shaders/shared/ultrasound_line.glsl.h"
+#include "shaders/shared/ultrasound_mirror.glsl.h"
+#include "sim/imaging/ultrasound/mirror.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
+
+namespace seldinger::imaging {
+namespace {
+
+// By Snell's law, without approximation: how far a ray is turned towards the middle of a ball.
+double turned_by_snell(double n, double off_radii) {
+  return 2.0 * (std::asin(off_radii) - std::asin(off_radii / n));
+}
+
+TEST(EdgeShadow, TurnsRaysAsSnellsLawDoes) {
+  for (const double n : {1540.0 / 1510.0, 1540.0 / 1575.0, 1462.0 / 1510.0})
+    for (double off = -0.8; off <= 0.8; off += 0.1)
+      EXPECT_NEAR(shaders::us_turned_rad(n - 1.0, off), turned_by_snell(n, off),
+                  0.15 * std::abs(turned_by_snell(n, off)) + 1e-9)
+          << n << ' ' << off;
+  EXPECT_EQ(shaders::us_turned_rad(0.02, 1.0), 0.0);  // it runs by
+}
+
+TEST(EdgeShadow, RaysPartAtTheEdgeAndNotInTheMiddle) {
+  constexpr double kRadiusMm = 10.0, kWidthMm = 1.5, kBehindMm = 40.0, kFluid = 1540.0 / 1510.0 - 1.0;
+  const auto left_db = [](double off, double radius_mm) {
+    const double cosine = std::sqrt(1.0 - off * off);
+    const double parting = shaders::us_parting_per_mm(kFluid, 0.0, 2.0 * radius_mm * cosine, cosine, kWidthMm);
+    return decibels(shaders::us_behind_edge(parting, kBehindMm));
+  };
+  EXPECT_EQ(left_db(0.0, kRadiusMm), 0.0);
+  EXPECT_LT(left_db(0.95, kRadiusMm), -6.0);
+  EXPECT_GE(left_db(0.95, kRadiusMm), -shaders::kUsMostEdgeDb - 1e-9);
+  EXPECT_EQ(left_db(0.95, 0.5 * shaders::kUsLeastRoundMm), 0.0);
+  EXPECT_EQ(shaders::us_behind_edge(0.5, -1.0), 1.0);  // before it
+}
+
+// A gallbladder across the picture, or a cyst: 10 mm of radius, 45 mm deep.
+const glm::dvec3 kMiddle(0.0, 45.0, 0.0);
+constexpr double kCystMm = 10.0;
+
+// Mean levels 35 to 55 mm behind the cyst's middle, of beams that pass it at these shares of its radius.
+double behind_db(const PolarPicture& picture, const UltrasoundView& view, double from, double to) {
+  double sum = 0.0;
+  int count = 0;
+  for (int b = 0; b < view.beams; ++b) {
+    const glm::dvec3 start = point_of(view, b, 0.0), along = glm::normalize(point_of(view, b, 1.0) - start);
+    const double off = glm::length(glm::cross(kMiddle - start, along)) / kCystMm;
+    if (off < from || off > to) continue;
+    for (int k = sample_at(view, kMiddle.y + 35.0); k < sample_at(view, kMiddle.y + 55.0); ++k, ++count)
+      sum += std::pow(static_cast<double>(at(picture, b, k)), 2.0);
+  }
+  EXPECT_GT(count, 0);
+  return 10.0 * std::log10(sum / count);
+}
+
+TEST(EdgeShadow, IsSeenBehindACystAsSphereAndInTheVolume) {
+  const Scene liver = all_of(TissueClass::liver);
+  const Scene drawn = scene(
+      [](const glm::dvec3& p) {
+        return glm::length(p - kMiddle) < kCystMm ? TissueClass::fluid : TissueClass::liver;
+      },
+      {110, 160, 60}, 1.0);
+  UltrasoundView view = curved_view(110.0);
+  view.attenuation_db_cm_mhz = 0.0;
+  view.beams = 256;
+  Inserted cyst;
+  cyst.lesions.push_back({kMiddle, kCystMm, 8.0});  // by HU: fluid
+  UltrasoundView old = view;
+  old.sight_law = cases::SightLaw::half_slice;
+  for (const auto& [picture, without] : {std::pair{polar_of(liver, view, cyst), polar_of(liver, old, cyst)},
+                                         std::pair{polar_of(drawn, view), polar_of(drawn, old)}}) {
+    const double edge = behind_db(picture, view, 0.92, 1.0);
+    printf("behind the edge %.1f dB, the middle %.1f dB, beside it %.1f dB\n", edge,
+           behind_db(picture, view, 0.0, 0.5), behind_db(picture, view, 1.2, 1.6));
+    EXPECT_LT(edge, behind_db(without, view, 0.92, 1.0) - 3.0);
+    EXPECT_NEAR(behind_db(picture, view, 0.0, 0.6), behind_db(without, view, 0.0, 0.6), 0.5);
+    EXPECT_EQ(behind_db(picture, view, 1.2, 1.6), behind_db(without, view, 1.2, 1.6));
+  }
+}
+
+// What runs along the skin is no round body: fat of a wall and water before liver are flat.
+TEST(EdgeShadow, IsNotCastByLayers) {
+  const Scene layers = scene([](const glm::dvec3& p) {
+    if (p.y < 15.0 + 0.3 * p.x) return TissueClass::muscle;
+    return p.y < 30.0 + 0.3 * p.x ? TissueClass::fluid : TissueClass::liver;
+  });
+  const UltrasoundView view = straight_view(80.0);
+  UltrasoundView old = view;
+  old.sight_law = cases::SightLaw::half_slice;
+  const PolarPicture now = polar_of(layers, view), before = polar_of(layers, old);
+  for (std::size_t i = 0; i < now.envelope.size(); ++i)
+    EXPECT_NEAR(now.envelope[i], before.envelope[i], 0.3 * static_cast<double>(before.envelope[i]));
+}
+
+// Liver down to lung, whose surface lies 60 mm deep and rises to the right; in the liver a cyst.
+constexpr double kLungMm = 60.0, kRise = 0.25;
+const glm::dvec3 kAboveLung(-4.0, 42.0, 0.0);
+constexpr double kMirroredMm = 6.0;
+Scene liver_on_lung() {
+  return scene(
+      [](const glm::dvec3& p) {
+        if (p.y > kLungMm - kRise * p.x) return TissueClass::lung;
+        return glm::length(p - kAboveLung) < kMirroredMm ? TissueClass::fluid : TissueClass::liver;
+      },
+      {130, 140, 40}, 1.0);
+}
+
+double around_db(const PolarPicture& picture, const UltrasoundView& view, const glm::dvec3& p) {
+  const BeamAndDepth at = beam_and_depth(view, p.x, p.y);
+  const int b = static_cast<int>(std::lround(at.beam)), k = sample_at(view, at.depth_mm);
+  return level_db(picture, b - 2, b + 3, k - 20, k + 20);
+}
+
+TEST(LungMirror, ShowsWhatLiesBeforeItBehindIt) {
+  const Scene s = liver_on_lung();
+  UltrasoundView view = curved_view(110.0), old = view;
+  old.sight_law = cases::SightLaw::half_slice;
+  const PolarPicture now = polar_of(s, view), before = polar_of(s, old);
+  // Where the cyst and the liver beside it seem to lie, by the closed form of the surface.
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(kRise, 1.0, 0.0));
+  const auto behind = [&](const glm::dvec3& p) {
+    return p + 2.0 * glm::dot(glm::dvec3(0.0, kLungMm, 0.0) - p, normal) * normal;
+  };
+  const glm::dvec3 beside = kAboveLung + glm::dvec3(-14.0, 0.0, 0.0);
+  const double loss_db = shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, view.probe.frequency_mhz);
+  const auto loss_to = [&](const glm::dvec3& p) { return loss_db * beam_and_depth(view, p.x, p.y).depth_mm; };
+  const double reflection = shaders::us_reflection(1.66, 0.20);
+  const double share_db = decibels(shaders::us_mirrored_share(reflection));
+  EXPECT_NEAR(around_db(now, view, behind(beside)) + loss_to(behind(beside)),
+              around_db(now, view, beside) + loss_to(beside) + share_db, 3.0);
+  EXPECT_LT(around_db(now, view, behind(kAboveLung)), around_db(now, view, behind(beside)) - 10.0);
+  EXPECT_LT(around_db(before, old, behind(beside)), around_db(now, view, behind(beside)) - 30.0);
+  // What lies before lung is what it was.
+  for (int b = 0; b < view.beams; ++b)
+    for (int k = 0; k < sample_at(view, 30.0); ++k) ASSERT_EQ(at(now, b, k), at(before, b, k));
+}
+
+TEST(LungMirror, IsNotThereBehindBoneOrGasOrInAir) {
+  for (const TissueClass shade : {TissueClass::bone, TissueClass::gas}) {
+    const Scene s = scene(
+        [&](const glm::dvec3& p) {
+          if (p.y > 20.0 && p.y < 26.0) return shade;
+          return p.y > 60.0 ? TissueClass::lung : TissueClass::liver;
+        },
+        {130, 140, 20}, 1.0);
+    const UltrasoundView view = curved_view(110.0);
+    const TissueAt tissue_at(s.tissue(), {});
+    EXPECT_TRUE(mirrors_of(view, tissue_at, nullptr, {}).empty());
+  }
+  const Scene s = liver_on_lung();
+  const UltrasoundView view = curved_view(110.0);
+  const TissueAt tissue_at(s.tissue(), {});
+  EXPECT_FALSE(mirrors_of(view, tissue_at, nullptr, {}).empty());
+  const std::vector<float> in_air(static_cast<std::size_t>(view.probe.elements), -10.0F);
+  EXPECT_TRUE(mirrors_of(view, tissue_at, nullptr, in_air).empty());
+  EXPECT_TRUE(mirrors_of(curved_view(40.0), tissue_at, nullptr, {}).empty());  // deeper than the picture
+}
+
+// Of one ray twice mirrored nothing is left to do: a mirror is its own way back.
+TEST(LungMirror, IsItsOwnInverse) {
+  const glm::dvec4 mirror(3.0, 50.0, std::sin(0.3), std::cos(0.3));
+  const glm::dvec4 there = shaders::us_mirrored(mirror, -7.0, 80.0);
+  const glm::dvec4 back = shaders::us_mirrored(mirror, there.x, there.y);
+  EXPECT_NEAR(back.x, -7.0, 1e-12);
+  EXPECT_NEAR(back.y, 80.0, 1e-12);
+  EXPECT_LT((there.y - 50.0) * std::cos(0.3) + (there.x - 3.0) * std::sin(0.3), 0.0);  // before it
+}
+
+}  // namespace
+}  // namespace seldinger::imaging
