@@ -41,6 +41,8 @@ constexpr ErrorCode kLibraryCodes[] = {
      "Give another folder."},
     {"newer_schema", kRefuses, "The library or bundle was written by a newer version of this program.",
      "Update this program."},
+    {"older_schema", kRefuses, "The other library was written by an older version of this program.",
+     "`seldinger check --library` of that library brings it up to date, after a backup beside it."},
     {"schema_mismatch", kRefuses,
      "The database does not hold what its schema version says: somebody set the number back, or changed a table. "
      "Nothing was changed.",
@@ -268,6 +270,8 @@ constexpr ErrorCode kAttemptCodes[] = {
      "docs/operators.md."},
     {"bad_surrogate", kRefuses, "The file is not a surrogate, or of too few attempts.",
      "`seldinger surrogate fit`."},
+    {"known_attempts", kRefuses, "A surrogate is held against attempts that it was fitted to, which tells nothing.",
+     "Give `surrogate check`, or the `surrogate fit` that wrote the file of --against, another --seed."},
     {"other_surrogate", kRefuses, "The surrogate is of another case, model of people or version of a metric.",
      "Fit it again: `seldinger surrogate fit`."},
     {"bad_field", kRefuses, "A field is missing or out of its range.", "The message names it."},

@@ -20,8 +20,9 @@ struct SimulatedEffect {
 };
 struct SimulatedEffects {
   std::string case_title;
-  std::size_t people = 0;  // in each group
-  std::vector<SimulatedEffect> metrics;
+  std::size_t people = 0;                // in each group
+  std::vector<SimulatedEffect> metrics;  // of everybody's first attempt
+  std::vector<SimulatedEffect> of_two;   // the same metrics, of the mean of everybody's first two on one day
   std::vector<SimulatedEffect> answers;  // one for each of statements()
 };
 SimulatedEffects simulated_effects(const assessment::population::Surrogate& surrogate, std::size_t people,

@@ -32,6 +32,7 @@ struct ReferenceEffect {
   std::string_view how;     // the value was had from the publication's figures
   int statement = -1;       // of a questionnaire: which of statements() asks the same; -1: none
   bool of_answers = false;  // to a questionnaire
+  bool of_two = false;      // of a person's first two performances, here their mean
 };
 std::span<const ReferenceEffect> reference_effects();
 
