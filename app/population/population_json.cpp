@@ -122,6 +122,9 @@ std::string json_of_doses(const std::vector<population::MetricDose>& doses, cons
                            {"intervals", one.intervals},
                            {"coverage", ratio(static_cast<double>(one.covered), one.intervals)},
                            {"mean_width", one.mean_width},
+                           {"d", number_or_null(one.d)},
+                           {"d_intervals", one.d_intervals},
+                           {"d_coverage", ratio(static_cast<double>(one.d_covered), one.d_intervals)},
                            {"paired_rank_correlation", one.paired}});
     }
     metrics.push_back({{"metric", dose.metric}, {"responses", responses}});

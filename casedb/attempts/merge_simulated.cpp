@@ -1,21 +1,18 @@
 #include "casedb/attempts/merge_simulated.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "assessment/population/streams.h"
 #include "casedb/attempts/add_unless.h"
 #include "casedb/attempts/made_at.h"
 #include "casedb/cases/case_checks.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/migrate.h"
 #include "casedb/database/sqlite.h"
-#include "casedb/people/facts.h"
 #include "casedb/people/simulated_people.h"
 
 namespace seldinger::casedb {
@@ -33,19 +30,6 @@ struct Arriving {
   SimulatedTruth truth;
   std::vector<AttemptRow> attempts;
 };
-
-population::Person person_of(Library& from, const SimulatedTruth& truth) {
-  population::Person person;
-  person.key = population::person_key(truth.seed, truth.group, truth.number);
-  person.group = truth.group;
-  person.number = truth.number;
-  person.ability = truth.ability;
-  person.strategy = truth.strategy;
-  const auto facts = newest_facts(list_facts(from, truth.person_id));
-  if (const auto years = facts.find("years_in_radiology"); years != facts.end())
-    person.years = std::strtod(years->second.answer.c_str(), nullptr);
-  return person;
-}
 
 bool is_same(const SimulatedTruth& a, const SimulatedTruth& b) {
   return a.people_version == b.people_version && a.ability == b.ability && a.strategy == b.strategy;
@@ -124,7 +108,7 @@ base::Result<Merged> merge_simulated(Library& into, Library& from) {
   std::vector<Arriving> all;
   std::set<std::string> case_ids;
   for (SimulatedTruth& truth : list_simulated_truths(from)) {
-    Arriving& one = all.emplace_back(Arriving{person_of(from, truth), truth, {}});
+    Arriving& one = all.emplace_back(Arriving{simulated_person_of(from, truth), truth, {}});
     if (const auto sound = check_person(one, here); !sound) return sound.error();
     one.attempts = list_bare_attempts_of(from, truth.person_id);
     for (const AttemptRow& row : one.attempts) case_ids.insert(row.case_id);
