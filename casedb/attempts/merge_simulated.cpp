@@ -84,7 +84,9 @@ base::Result<bool> add(Library& into, Library& from, const AttemptRow& row) {
 bool is_older(const std::filesystem::path& file, const Schema& schema) {
   if (what_is(file) != Place::file) return false;
   try {
-    Sqlite database(file, Sqlite::Mode::read_only);
+    // Where nobody writes, not even SQLite's index of the log is left behind.
+    const bool in_use = what_is(file.string() + "-wal") != Place::nothing;
+    Sqlite database(file, in_use ? Sqlite::Mode::read_only : Sqlite::Mode::immutable);
     const auto version = schema_version(database, schema);
     return version && *version > 0 && *version < newest_version(schema);
   } catch (const DatabaseFailure&) {
