@@ -1,10 +1,10 @@
 #include "app/population/effects_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <span>
 
 #include "assessment/population/raters.h"
 #include "assessment/population/reference_effects.h"
@@ -29,7 +29,7 @@ double squares_of(const std::vector<double>& x) {
 
 SimulatedEffect effect_of(const std::string& metric, const std::vector<double>& less,
                           const std::vector<double>& more) {
-  SimulatedEffect made{metric, less.size() + more.size(), {}, {}};
+  SimulatedEffect made{.metric = metric, .values = less.size() + more.size()};
   if (less.size() < 2 || more.size() < 2) return made;
   const double pooled = std::sqrt((squares_of(less) + squares_of(more)) / static_cast<double>(made.values - 2));
   if (!(pooled > 0.0)) return made;
@@ -65,6 +65,11 @@ Found found_by(const SimulatedEffects& effects, const ReferenceEffect& row) {
 std::optional<double> predicted(const SimulatedEffects& effects, const ReferenceEffect& row) {
   if (row.kind == EffectKind::discriminating) return found_by(effects, row).share;
   if (row.kind == EffectKind::difference && row.selected) return found_by(effects, row).mean_size;
+  const auto of = std::find_if(effects.metrics.begin(), effects.metrics.end(),
+                               [&](const SimulatedEffect& one) { return one.metric == row.metric; });
+  if (of != effects.metrics.end() && row.kind == EffectKind::level) return of->novices;
+  if (of != effects.metrics.end() && of->novices && of->practised && *of->novices != 0.0)
+    return *of->practised / *of->novices;
   if (row.statement >= 0) return effects.answers.at(static_cast<std::size_t>(row.statement)).difference;
   return std::nullopt;
 }
@@ -88,17 +93,22 @@ SimulatedEffects simulated_effects(const population::Surrogate& surrogate, std::
   const std::size_t metrics = surrogate.mark().metrics.size();
   const std::size_t asked = population::statements().size();
   std::vector<std::vector<double>> less(metrics), more(metrics), less_of_two(metrics), more_of_two(metrics);
-  std::vector<std::vector<double>> trainees(asked), experts(asked);
+  std::vector<std::vector<double>> trainees(asked), experts(asked), practised(metrics);
+  const std::vector<double> all_before(kPractised);  // on day 0
   for (const bool expert : {false, true}) {
     const auto group = *population::named_group(expert ? "expert" : "novice");
     for (std::size_t number = 1; number <= people; ++number) {
       const population::Person person = population::drawn_person(group, seed, number);
       const auto values = surrogate.draw(person, {1, 0, 0.0});
-      const std::array before = {0.0};
-      const auto next = surrogate.draw(person, {1, 1, population::gain_of(person.practice, before, 0.0)});
+      const auto after = [&](std::size_t others) {
+        const auto before = std::span(all_before).first(others);
+        return surrogate.draw(person, {1, others, population::gain_of(person.practice, before, 0.0)});
+      };
+      const auto next = after(1), last = after(kPractised);
       for (std::size_t s = 0; s < asked; ++s)
         (expert ? experts : trainees)[s].push_back(population::answer_of(person, s));
       for (std::size_t m = 0; m < metrics; ++m) {
+        if (!expert && last[m]) practised[m].push_back(*last[m]);
         if (!values[m]) continue;
         (expert ? more : less)[m].push_back(*values[m]);
         if (next[m]) (expert ? more_of_two : less_of_two)[m].push_back((*values[m] + *next[m]) / 2.0);
@@ -108,6 +118,8 @@ SimulatedEffects simulated_effects(const population::Surrogate& surrogate, std::
   for (std::size_t m = 0; m < metrics; ++m) {
     if (less[m].size() + more[m].size() == 0) continue;
     made.metrics.push_back(effect_of(surrogate.mark().metrics[m].id, less[m], more[m]));
+    if (!less[m].empty()) made.metrics.back().novices = mean_of(less[m]);
+    if (!practised[m].empty()) made.metrics.back().practised = mean_of(practised[m]);
     made.of_two.push_back(effect_of(surrogate.mark().metrics[m].id, less_of_two[m], more_of_two[m]));
   }
   for (std::size_t s = 0; s < asked; ++s)

@@ -14,10 +14,13 @@ namespace seldinger::app {
 
 struct SimulatedEffect {
   std::string metric;
-  std::size_t values = 0;            // of both groups, of those that are not null
-  std::optional<double> difference;  // in pooled standard deviations, experts minus novices
-  std::optional<double> area;        // P(expert's > novice's) + ½ P(equal)
+  std::size_t values = 0;              // of both groups, of those that are not null
+  std::optional<double> difference{};  // in pooled standard deviations, experts minus novices
+  std::optional<double> area{};        // P(expert's > novice's) + ½ P(equal)
+  // Means of novices: of their first attempts, and of attempts after kPractised others on one day.
+  std::optional<double> novices{}, practised{};
 };
+constexpr std::size_t kPractised = 20;
 struct SimulatedEffects {
   std::string case_title;
   std::size_t people = 0;                // in each group
