@@ -44,6 +44,7 @@ namespace seldinger::app {
   ROW(sheet)                    \
   ROW(simulate)                 \
   ROW(simulate_merge)           \
+  ROW(simulate_answers)         \
   ROW(surrogate_fit)            \
   ROW(surrogate_check)          \
   ROW(surrogate_effects)        \

@@ -137,6 +137,7 @@ constexpr std::string_view kLines[] = {
     "questionnaire list",
     "questionnaire import CODE first.csv second.csv",
     "questionnaire export CODE --out answers.csv",
+    "simulate answers CODE",
     "questionnaire close CODE",
     "questionnaire template osats-grs --out grs.json",
     "questionnaire add grs.json",

@@ -507,7 +507,7 @@ CREATE TABLE response_set (
   draft_key TEXT CHECK (length(draft_key) = 64), -- SHA-256 of what the browser keeps; null: not a draft of a page
   begun_us INTEGER NOT NULL,
   submitted_us INTEGER -- null: a draft
-) STRICT;
+, simulated INTEGER NOT NULL DEFAULT 0 CHECK (simulated IN (0, 1))) STRICT;
 
 CREATE TABLE servo_record (
   attempt_id TEXT NOT NULL PRIMARY KEY REFERENCES attempt (attempt_id),
@@ -1207,6 +1207,11 @@ WHEN NOT EXISTS (SELECT 1 FROM questionnaire_round JOIN questionnaire USING (for
   WHERE round_id = NEW.round_id AND questionnaire_id = NEW.questionnaire_id)
 BEGIN
   SELECT RAISE(ABORT, 'answers are to the version that the round asks');
+END;
+
+CREATE TRIGGER response_set_stays_simulated BEFORE UPDATE ON response_set WHEN OLD.simulated = 1 AND NEW.simulated = 0
+BEGIN
+  SELECT RAISE(ABORT, 'what was simulated stays so');
 END;
 
 CREATE TRIGGER response_set_submitted_is_immutable BEFORE UPDATE ON response_set WHEN OLD.submitted_us IS NOT NULL

@@ -14,7 +14,7 @@ int run_simulate_merge(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::simulate_attempts); !by)
     return refuse(by.error());
-  auto from = casedb::Library::open(arguments.positional(0));
+  auto from = casedb::open_to_merge(arguments.positional(0));
   if (!from) return refuse(from.error());
   const auto merged = casedb::merge_simulated(*library, *from);
   if (!merged) return refuse(merged.error());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "assessment/statistics/distributions.h"
 #include "sim/base/check.h"
 
 namespace seldinger::app {
@@ -106,13 +107,21 @@ const population::EffectAgreement& most_paired(const GroupsAgreement& groups) {
                            [](const auto& a, const auto& b) { return std::abs(a.pairs) < std::abs(b.pairs); });
 }
 
-bool is_within_chance(const SurrogateAgreement& agreement) {
-  std::size_t beyond = 0;
-  for (const LevelAgreement& one : agreement.levels)
-    beyond += one.agreement.quantiles_beyond_chance + one.agreement.shares_beyond_chance +
-              one.agreement.pairs_beyond_chance;
-  for (const GroupsAgreement& one : agreement.effects) beyond += effects_off(one);
-  return beyond == 0;
+Verdict verdict_of(const SurrogateAgreement& agreement) {
+  Verdict verdict;
+  for (const LevelAgreement& one : agreement.levels) {
+    verdict.comparisons += one.agreement.comparisons;
+    verdict.furthest_errors = std::max(verdict.furthest_errors, one.agreement.furthest_errors);
+  }
+  for (const GroupsAgreement& groups : agreement.effects)
+    for (const population::EffectAgreement& one : groups.effects) {
+      verdict.comparisons += 2;
+      verdict.furthest_errors = std::max({verdict.furthest_errors, area_errors(one), d_errors(one)});
+    }
+  constexpr double kFalseAlarms = 0.05;
+  const auto m = static_cast<double>(std::max<std::size_t>(verdict.comparisons, 1));
+  verdict.allowed_errors = assessment::statistics::normal_quantile_of(1.0 - kFalseAlarms / (2.0 * m));
+  return verdict;
 }
 
 std::string text_of_agreement(const SurrogateAgreement& agreement) {
@@ -122,6 +131,12 @@ std::string text_of_agreement(const SurrogateAgreement& agreement) {
   add_levels(agreement.levels, text);
   for (const LevelAgreement& one : agreement.levels) add_worst(one, text);
   for (const GroupsAgreement& one : agreement.effects) add_effects(one, text);
+  const Verdict verdict = verdict_of(agreement);
+  add_line(text,
+           "\nOf %zu comparisons chance takes the furthest %.1f standard errors beyond its bound in one check of "
+           "twenty (Bonferroni); here it is %.1f: ",
+           verdict.comparisons, verdict.allowed_errors, verdict.furthest_errors);
+  text += verdict.within_chance() ? "within chance.\n" : "the surrogate is off.\n";
   return text;
 }
 

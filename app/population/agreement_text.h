@@ -25,8 +25,14 @@ struct SurrogateAgreement {
 std::size_t effects_off(const GroupsAgreement& groups);
 // The metric whose people of the same number in the two groups are most alike or most unlike.
 const assessment::population::EffectAgreement& most_paired(const GroupsAgreement& groups);
-// Nothing is off by more than chance makes of so few attempts.
-bool is_within_chance(const SurrogateAgreement& agreement);
+// Whether chance makes the furthest of so many comparisons. With m of them, in one check of twenty or fewer one is
+// off by more than `allowed_errors`, the normal distribution's quantile of 1 − .05 / 2m (Bonferroni).
+struct Verdict {
+  std::size_t comparisons = 0;
+  double furthest_errors = 0.0, allowed_errors = 0.0;  // standard errors beyond what a comparison may be off by
+  bool within_chance() const noexcept { return furthest_errors <= allowed_errors; }
+};
+Verdict verdict_of(const SurrogateAgreement& agreement);
 std::string text_of_agreement(const SurrogateAgreement& agreement);  // Markdown
 
 }  // namespace seldinger::app

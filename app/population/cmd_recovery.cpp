@@ -72,7 +72,7 @@ double value_of(const std::vector<assessment::MetricValue>& metrics, const asses
 // What others of a group make at their first attempt.
 base::Result<std::vector<assessment::Grade>> others_of(const session::Simulation& simulation,
                                                        const std::string& group, const Asked& asked) {
-  const std::uint64_t case_key = session::case_key_of(simulation.task().row.title);
+  const std::uint64_t case_key = population::case_key_of(simulation.task().row.title);
   std::vector<session::SimulatedTrial> trials;
   for (std::size_t number = 1; number <= asked.truth; ++number)
     trials.push_back(trial_of(population::drawn_person(*population::named_group(group), asked.seed, number),
@@ -198,7 +198,7 @@ base::Result<void> add_learning(const session::Simulation& simulation, const rep
   std::erase_if(courses, [](const auto& one) { return one.second.size() < kLeastCourse; });
   while (courses.size() > asked.learners) courses.erase(std::prev(courses.end()));
   if (courses.empty()) return {};
-  const std::uint64_t case_key = session::case_key_of(simulation.task().row.title);
+  const std::uint64_t case_key = population::case_key_of(simulation.task().row.title);
   std::vector<session::SimulatedTrial> trials;
   for (const auto& one : courses) {
     const population::Person& person = known.at(one.first).person;

@@ -135,6 +135,9 @@ int run_surrogate_check(const Arguments& arguments) {
   const auto levels =
       simulated_by ? levels_of_groups(*simulated_by, groups, *surrogate) : levels_of_files(arguments, *surrogate);
   if (!levels) return refuse(levels.error());
+  for (const Level& one : *levels)
+    if (population::was_fitted_to(*surrogate, one.points))
+      return refuse({"known_attempts", "the surrogate was fitted to attempts of " + one.name + " itself"});
   SurrogateAgreement made;
   for (const Level& one : *levels) {
     made.levels.push_back({one.name, population::agreement_of(*surrogate, one.points, kDrawsEach, kDrawSeed)});
@@ -144,7 +147,7 @@ int run_surrogate_check(const Arguments& arguments) {
            population::effects_of(*surrogate, levels->front().points, one.points, kDrawsEach, kDrawSeed)});
   }
   std::fputs(arguments.has("--json") ? json_of_agreement(made).c_str() : text_of_agreement(made).c_str(), stdout);
-  return is_within_chance(made) ? kDone : kCheckFailed;
+  return verdict_of(made).within_chance() ? kDone : kCheckFailed;
 }
 
 int run_surrogate_effects(const Arguments& arguments) {

@@ -20,6 +20,9 @@ constexpr double kPlanned = 0.95, kMayBeOff = 0.025;
 double covered_share(const population::MetricResponse& one) {
   return one.intervals == 0 ? NAN : static_cast<double>(one.covered) / static_cast<double>(one.intervals);
 }
+double d_covered_share(const population::MetricResponse& one) {
+  return one.d_intervals == 0 ? NAN : static_cast<double>(one.d_covered) / static_cast<double>(one.d_intervals);
+}
 
 std::vector<double> shifts_of(const Arguments& arguments) {
   if (!arguments.has("--shift")) return {0.0, 0.2, 0.5, 0.8, 1.2};
@@ -60,6 +63,26 @@ void print_sum(const std::vector<population::MetricDose>& doses, const std::vect
   }
 }
 
+// Of metrics that are normal enough at some shift.
+void print_differences(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
+  print("\nDifferences in standard deviations, of metrics that are normal enough in both groups:\n\n| metric |");
+  for (const double shift : shifts) print(" shift %g |", shift);
+  print("\n|---|");
+  for (std::size_t s = 0; s < shifts.size(); ++s) print("---|");
+  print("\n");
+  for (const population::MetricDose& one : doses) {
+    if (std::none_of(one.responses.begin(), one.responses.end(), [](const auto& at) { return at.d.has_value(); }))
+      continue;
+    print("| `%s` |", one.metric.c_str());
+    for (const population::MetricResponse& at : one.responses)
+      if (at.d)
+        print(" %+.2f (%.1f %%) |", *at.d, 100.0 * d_covered_share(at));
+      else
+        print(" – |");
+    print("\n");
+  }
+}
+
 void print_metrics(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
   print("\n| metric |");
   for (const double shift : shifts) print(" shift %g |", shift);
@@ -97,6 +120,7 @@ int run_surrogate_coverage(const Arguments& arguments) {
       options.truth_people);
   print_sum(doses, shifts);
   print_metrics(doses, shifts);
+  print_differences(doses, shifts);
   return kDone;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <span>
 
 #include "assessment/population/raters.h"
 #include "assessment/population/reference_effects.h"
@@ -28,7 +29,7 @@ double squares_of(const std::vector<double>& x) {
 
 SimulatedEffect effect_of(const std::string& metric, const std::vector<double>& less,
                           const std::vector<double>& more) {
-  SimulatedEffect made{metric, less.size() + more.size(), {}, {}};
+  SimulatedEffect made{.metric = metric, .values = less.size() + more.size()};
   if (less.size() < 2 || more.size() < 2) return made;
   const double pooled = std::sqrt((squares_of(less) + squares_of(more)) / static_cast<double>(made.values - 2));
   if (!(pooled > 0.0)) return made;
@@ -47,11 +48,11 @@ SimulatedEffect effect_of(const std::string& metric, const std::vector<double>& 
 struct Found {
   double share = 0.0, mean_size = 0.0;
 };
-Found found_by(const SimulatedEffects& effects, std::size_t n1, std::size_t n2) {
+Found found_by(const SimulatedEffects& effects, const ReferenceEffect& row) {
   double power = 0.0, size = 0.0, metrics = 0.0;
-  for (const SimulatedEffect& one : effects.metrics) {
+  for (const SimulatedEffect& one : row.of_two ? effects.of_two : effects.metrics) {
     if (!one.difference) continue;
-    const auto selected = population::selected_of(*one.difference, n1, n2);
+    const auto selected = population::selected_of(*one.difference, row.n1, row.n2);
     power += selected.power;
     size += selected.power * selected.mean_size;
     metrics += 1.0;
@@ -62,8 +63,13 @@ Found found_by(const SimulatedEffects& effects, std::size_t n1, std::size_t n2) 
 }  // namespace
 
 std::optional<double> predicted(const SimulatedEffects& effects, const ReferenceEffect& row) {
-  if (row.kind == EffectKind::discriminating) return found_by(effects, row.n1, row.n2).share;
-  if (row.kind == EffectKind::difference && row.selected) return found_by(effects, row.n1, row.n2).mean_size;
+  if (row.kind == EffectKind::discriminating) return found_by(effects, row).share;
+  if (row.kind == EffectKind::difference && row.selected) return found_by(effects, row).mean_size;
+  const auto of = std::find_if(effects.metrics.begin(), effects.metrics.end(),
+                               [&](const SimulatedEffect& one) { return one.metric == row.metric; });
+  if (of != effects.metrics.end() && row.kind == EffectKind::level) return of->novices;
+  if (of != effects.metrics.end() && of->novices && of->practised && *of->novices != 0.0)
+    return *of->practised / *of->novices;
   if (row.statement >= 0) return effects.answers.at(static_cast<std::size_t>(row.statement)).difference;
   return std::nullopt;
 }
@@ -83,24 +89,39 @@ const char* kind_text(EffectKind kind) {
 }
 
 SimulatedEffects simulated_effects(const population::Surrogate& surrogate, std::size_t people, std::uint64_t seed) {
-  SimulatedEffects made{surrogate.mark().case_title, people, {}, {}};
+  SimulatedEffects made{surrogate.mark().case_title, people, {}, {}, {}};
   const std::size_t metrics = surrogate.mark().metrics.size();
   const std::size_t asked = population::statements().size();
-  std::vector<std::vector<double>> less(metrics), more(metrics), trainees(asked), experts(asked);
+  std::vector<std::vector<double>> less(metrics), more(metrics), less_of_two(metrics), more_of_two(metrics);
+  std::vector<std::vector<double>> trainees(asked), experts(asked), practised(metrics);
+  const std::vector<double> all_before(kPractised);  // on day 0
   for (const bool expert : {false, true}) {
     const auto group = *population::named_group(expert ? "expert" : "novice");
     for (std::size_t number = 1; number <= people; ++number) {
       const population::Person person = population::drawn_person(group, seed, number);
       const auto values = surrogate.draw(person, {1, 0, 0.0});
+      const auto after = [&](std::size_t others) {
+        const auto before = std::span(all_before).first(others);
+        return surrogate.draw(person, {1, others, population::gain_of(person.practice, before, 0.0)});
+      };
+      const auto next = after(1), last = after(kPractised);
       for (std::size_t s = 0; s < asked; ++s)
         (expert ? experts : trainees)[s].push_back(population::answer_of(person, s));
-      for (std::size_t m = 0; m < metrics; ++m)
-        if (values[m]) (expert ? more : less)[m].push_back(*values[m]);
+      for (std::size_t m = 0; m < metrics; ++m) {
+        if (!expert && last[m]) practised[m].push_back(*last[m]);
+        if (!values[m]) continue;
+        (expert ? more : less)[m].push_back(*values[m]);
+        if (next[m]) (expert ? more_of_two : less_of_two)[m].push_back((*values[m] + *next[m]) / 2.0);
+      }
     }
   }
-  for (std::size_t m = 0; m < metrics; ++m)
-    if (less[m].size() + more[m].size() > 0)
-      made.metrics.push_back(effect_of(surrogate.mark().metrics[m].id, less[m], more[m]));
+  for (std::size_t m = 0; m < metrics; ++m) {
+    if (less[m].size() + more[m].size() == 0) continue;
+    made.metrics.push_back(effect_of(surrogate.mark().metrics[m].id, less[m], more[m]));
+    if (!less[m].empty()) made.metrics.back().novices = mean_of(less[m]);
+    if (!practised[m].empty()) made.metrics.back().practised = mean_of(practised[m]);
+    made.of_two.push_back(effect_of(surrogate.mark().metrics[m].id, less_of_two[m], more_of_two[m]));
+  }
   for (std::size_t s = 0; s < asked; ++s)
     made.answers.push_back(effect_of(std::string(population::statements()[s].words), trainees[s], experts[s]));
   return made;

@@ -14,14 +14,18 @@ namespace seldinger::app {
 
 struct SimulatedEffect {
   std::string metric;
-  std::size_t values = 0;            // of both groups, of those that are not null
-  std::optional<double> difference;  // in pooled standard deviations, experts minus novices
-  std::optional<double> area;        // P(expert's > novice's) + ½ P(equal)
+  std::size_t values = 0;              // of both groups, of those that are not null
+  std::optional<double> difference{};  // in pooled standard deviations, experts minus novices
+  std::optional<double> area{};        // P(expert's > novice's) + ½ P(equal)
+  // Means of novices: of their first attempts, and of attempts after kPractised others on one day.
+  std::optional<double> novices{}, practised{};
 };
+constexpr std::size_t kPractised = 20;
 struct SimulatedEffects {
   std::string case_title;
-  std::size_t people = 0;  // in each group
-  std::vector<SimulatedEffect> metrics;
+  std::size_t people = 0;                // in each group
+  std::vector<SimulatedEffect> metrics;  // of everybody's first attempt
+  std::vector<SimulatedEffect> of_two;   // the same metrics, of the mean of everybody's first two on one day
   std::vector<SimulatedEffect> answers;  // one for each of statements()
 };
 SimulatedEffects simulated_effects(const assessment::population::Surrogate& surrogate, std::size_t people,

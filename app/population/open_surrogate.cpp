@@ -48,7 +48,7 @@ base::Result<std::vector<population::SimulatedPoint>> simulated_points(const ses
                                                                        const std::vector<population::Group>& groups,
                                                                        std::uint64_t seed, std::size_t people,
                                                                        std::size_t jobs) {
-  const std::uint64_t case_key = session::case_key_of(simulation.task().row.title);
+  const std::uint64_t case_key = population::case_key_of(simulation.task().row.title);
   std::vector<session::SimulatedTrial> trials;
   std::vector<population::SimulatedPoint> points;
   for (std::size_t number = 1; number <= people; ++number) {

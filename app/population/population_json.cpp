@@ -71,7 +71,14 @@ std::string json_of_agreement(const SurrogateAgreement& agreement) {
   Json levels = Json::array(), groups = Json::array();
   for (const LevelAgreement& one : agreement.levels) levels.push_back(level_json(one));
   for (const GroupsAgreement& one : agreement.effects) groups.push_back(groups_json(one));
-  return casedb::text(Json{{"synthetic", true}, {"levels", levels}, {"effects", groups}});
+  const Verdict verdict = verdict_of(agreement);
+  return casedb::text(Json{{"synthetic", true},
+                           {"levels", levels},
+                           {"effects", groups},
+                           {"comparisons", verdict.comparisons},
+                           {"furthest_errors", verdict.furthest_errors},
+                           {"allowed_errors", verdict.allowed_errors},
+                           {"within_chance", verdict.within_chance()}});
 }
 
 std::string json_of_effects(const SimulatedEffects& effects) {
@@ -115,6 +122,9 @@ std::string json_of_doses(const std::vector<population::MetricDose>& doses, cons
                            {"intervals", one.intervals},
                            {"coverage", ratio(static_cast<double>(one.covered), one.intervals)},
                            {"mean_width", one.mean_width},
+                           {"d", number_or_null(one.d)},
+                           {"d_intervals", one.d_intervals},
+                           {"d_coverage", ratio(static_cast<double>(one.d_covered), one.d_intervals)},
                            {"paired_rank_correlation", one.paired}});
     }
     metrics.push_back({{"metric", dose.metric}, {"responses", responses}});

@@ -67,6 +67,8 @@ int run_rating_show(const Arguments& arguments) {
   std::printf("%s  %s version %d: %zu of %zu ratings sent\n", ratings->round.code.c_str(),
               ratings->round.form_id.c_str(), ratings->round.version, ratings->ratings.size(), ratings->asked);
   if (ratings->ratings.empty()) return kDone;  // nothing to agree on yet
+  if (const std::size_t simulated = casedb::count_simulated(*ratings); simulated > 0)
+    std::printf("SIMULATED: %zu of them are simulated raters'; they say nothing about people.\n", simulated);
   for (const auto& [item_id, agreement] : agreements) print_agreement(item_id, agreement);
   return kDone;
 }

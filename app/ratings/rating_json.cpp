@@ -42,6 +42,10 @@ std::string json_of_opened(const casedb::OpenedRatingRound& opened, std::size_t 
       {"code", opened.round.code}, {"replays", replays}, {"calibration", calibration}, {"keys", std::move(keys)}});
 }
 
+std::string json_of_simulated(const casedb::SimulatedAnswers& made) {
+  return casedb::text(OrderedJson{{"synthetic", true}, {"sent", made.sent}, {"there", made.there}});
+}
+
 std::string json_of_agreements(const casedb::SentRatings& ratings, const Agreements& agreements) {
   OrderedJson scores = OrderedJson::array();
   for (const auto& [item_id, agreement] : agreements) {
@@ -54,6 +58,7 @@ std::string json_of_agreements(const casedb::SentRatings& ratings, const Agreeme
                                   {"version", ratings.round.version},
                                   {"asked", ratings.asked},
                                   {"sent", ratings.ratings.size()},
+                                  {"simulated", casedb::count_simulated(ratings)},
                                   {"scores", std::move(scores)}});
 }
 

@@ -8,6 +8,7 @@
 
 #include "assessment/rating/agreement.h"
 #include "casedb/ratings/rating_rounds.h"
+#include "casedb/ratings/simulated_answers.h"
 
 namespace seldinger::app {
 
@@ -15,6 +16,7 @@ namespace seldinger::app {
 using Agreements = std::vector<std::pair<std::string, assessment::rating::Agreement>>;
 
 std::string json_of_opened(const casedb::OpenedRatingRound& opened, std::size_t replays, std::size_t calibration);
+std::string json_of_simulated(const casedb::SimulatedAnswers& made);
 std::string json_of_agreements(const casedb::SentRatings& ratings, const Agreements& agreements);
 
 }  // namespace seldinger::app

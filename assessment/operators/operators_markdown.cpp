@@ -29,6 +29,8 @@ would have shown there; hollow: each metric of theirs at Drill 2, experts and no
 
 ![Published differences between groups, and those of every metric of simulated people](benchmarks/simulated-people.svg)
 
+The named experts pass every drill and the named novices hardly ever; people overlap: [who passes which](simulated-people.md#what-they-do-to-rules-and-thresholds).
+
 What they see is what a person would: what each picture shows, after their reaction time; the needle outside the skin and
 the marks on its shaft; of the tip no more than whether the picture shows it, and where while it does. They sign in, and
 defer where INR is over 1.8 or platelets are below 50 · 10⁹/l (SIR 2019, high risk); find the plane, check the probe, note

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "assessment/population/streams.h"
 #include "assessment/statistics/ranks.h"
@@ -107,6 +108,11 @@ double share_error_points(double share, std::size_t n) {
   return 100.0 * std::sqrt(std::max(share * (1.0 - share), 1.0 / static_cast<double>(n)) / static_cast<double>(n));
 }
 
+void count_comparison(double off, double limit, double error, Agreement& sum) {
+  ++sum.comparisons;
+  if (off > limit) sum.furthest_errors = std::max(sum.furthest_errors, (off - limit) / error);
+}
+
 MetricAgreement metric_agreement(std::span<const Values> full, std::span<const Values> drawn, std::size_t m,
                                  bool whole, std::uint64_t seed, OwnError& own, Agreement& sum) {
   MetricAgreement made;
@@ -118,6 +124,7 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   made.zero_error_points = share_error_points(a.zero_share, full.size());
   for (const auto& [points, error] :
        {std::pair(made.null_points, made.null_error_points), std::pair(made.zero_points, made.zero_error_points)}) {
+    count_comparison(std::abs(points), kShareLimit, error, sum);
     sum.shares_off += std::abs(points) > kShareLimit ? 1U : 0U;
     sum.shares_beyond_chance += std::abs(points) > kShareLimit + kErrors * error ? 1U : 0U;
   }
@@ -128,6 +135,7 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   const Quantiles errors = quantile_errors(a.values, whole, base::hash_combine(seed, std::uint64_t{m}));
   for (std::size_t q = 0; q < kShares.size(); ++q) {
     const double difference = (there[q] - here[q]) / sd, error = errors[q] / sd;
+    count_comparison(std::abs(difference), kQuantileLimit, error, sum);
     off = off || std::abs(difference) > kQuantileLimit;
     beyond = beyond || std::abs(difference) > kQuantileLimit + kErrors * error;
     own.add(difference, error);
@@ -214,8 +222,10 @@ void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std
       ++sum.pairs;
       const double off = std::abs(a->rho - b->rho);
       sum.pairs_off += off > kPairLimit ? 1U : 0U;
-      const double error = error_of(*a);
+      // Of the attempts, were the surrogate right: in a few of them two metrics may go together without exception.
+      const double error = error_of({b->rho, a->n});
       own.add(off, error);
+      count_comparison(off, kPairLimit, error, sum);
       sum.pairs_beyond_chance += off > kPairLimit + kErrors * error ? 1U : 0U;
       if (off > sum.worst_rank_correlation) {
         sum.worst_rank_correlation = off;
@@ -249,6 +259,14 @@ Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoin
   sum.quantile_own_sd = of_quantiles.rms();
   compare_pairs(surrogate, full, drawn, compared, sum);
   return sum;
+}
+
+// Two attempts of one place would be of the same person on the same occasion.
+bool was_fitted_to(const Surrogate& surrogate, std::span<const SimulatedPoint> attempts) {
+  std::set<Place> known;
+  for (const SimulatedPoint& one : surrogate.attempts()) known.insert(one.place);
+  return std::any_of(attempts.begin(), attempts.end(),
+                     [&](const SimulatedPoint& one) { return known.contains(one.place); });
 }
 
 std::vector<EffectAgreement> effects_of(const Surrogate& surrogate, std::span<const SimulatedPoint> less,

@@ -27,6 +27,9 @@ struct Agreement {
   std::size_t pairs = 0;
   double worst_rank_correlation = 0.0, rank_correlation_error = 0.0;  // of the pairs' Spearman correlations
   std::string worst_pair;
+  // How many comparisons there were, and how far the furthest lies beyond .1 SD, 3 points, .1, in standard errors.
+  std::size_t comparisons = 0;
+  double furthest_errors = 0.0;
   // How many are further apart than .1 SD, 3 points, .1; and how many of them by more than 3 standard errors
   // beyond.
   // What is left of the differences when chance is taken away, root mean square: the surrogate's own error.
@@ -37,6 +40,9 @@ struct Agreement {
 // Both are drawn for the same places.
 Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoint> held_out, std::size_t draws_each,
                        std::uint64_t seed);
+
+// Whether the surrogate was fitted to one of these attempts: then they tell nothing about it.
+bool was_fitted_to(const Surrogate& surrogate, std::span<const SimulatedPoint> attempts);
 
 // How two groups of attempts that were simulated whole differ, and how what the surrogate draws for the same people
 // does: more minus less.

@@ -7,6 +7,7 @@
 #include "assessment/population/streams.h"
 #include "sim/base/check.h"
 #include "sim/base/exact_math.h"
+#include "sim/base/hash.h"
 
 namespace seldinger::assessment::population {
 namespace {
@@ -142,6 +143,10 @@ Person drawn_person(const Group& group, std::uint64_t seed, std::uint64_t number
   person.years = std::clamp(
       group.middle_years * base::exact_exp(0.35 * normal_of(stream_of(person.key, Drawn::fact))), 0.0, 50.0);
   return person;
+}
+
+std::uint64_t case_key_of(std::string_view case_title) noexcept {
+  return base::hash_bytes(std::as_bytes(std::span(case_title)));
 }
 
 Abilities ability_on(const Person& person, const Occasion& occasion) {

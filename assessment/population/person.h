@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "assessment/operators/profile.h"
 #include "sim/base/names.h"
@@ -70,8 +71,10 @@ struct Person {
 };
 Person drawn_person(const Group& group, std::uint64_t seed, std::uint64_t number);
 
+// The case by what it is called: every version of a case, in every library, is the same to a person.
+std::uint64_t case_key_of(std::string_view case_title) noexcept;
 struct Occasion {
-  std::uint64_t case_key = 0;  // of the case: hash_bytes of its id
+  std::uint64_t case_key = 0;  // case_key_of its title
   std::uint64_t attempt = 0;   // the person's, from 0, at this case
   double gain = 0.0;           // of practice
 };

@@ -31,6 +31,10 @@ std::span<const RatedItem> rated_items();
 // Of an ability as it was on the occasion; `order`: the how-many-eth the rating is for this rater, from 0.
 int rating_of(const Rater& rater, const Person& person, const Abilities& ability, std::size_t item,
               std::uint64_t order);
+// Of an item of any form by its words: as the rated item whose name it begins with, else of all abilities alike. Of
+// `points` points the place, from 0.
+std::size_t rated_point(const Rater& rater, const Person& person, const Abilities& ability, std::string_view words,
+                        std::uint64_t order, std::size_t points);
 
 // The statements of the final evaluation's questionnaire with the published mean and standard deviation of trainees
 // and experts (Vidal, thesis, Bangor University 2008, table 6.3), on 1 to 5.
@@ -42,5 +46,8 @@ std::span<const Statement> statements();
 // A person's answers hang together: who likes one thing likes the others too. Experts are people of seven years in
 // radiology and more.
 int answer_of(const Person& person, std::size_t statement);
+// To an item of any form by its words: the place among `points` points, from 0. Of a statement above that of its
+// answer; to others each point is as likely as the next, and who likes one thing likes the others, too.
+std::size_t answered_point(const Person& person, std::string_view words, std::size_t points);
 
 }  // namespace seldinger::assessment::population

@@ -27,11 +27,13 @@ struct ReferenceEffect {
   double value = 0.0;          // of `discriminating` the share
   std::size_t n1 = 0, n2 = 0;  // people of less and of more experience; of `discriminating` its metrics in `of`
   std::size_t of = 0;
-  bool selected = false;    // reported because it was significant
-  bool fitted = false;      // the population was set by it; the others are predicted
-  std::string_view how;     // the value was had from the publication's figures
-  int statement = -1;       // of a questionnaire: which of statements() asks the same; -1: none
-  bool of_answers = false;  // to a questionnaire
+  bool selected = false;         // reported because it was significant
+  bool fitted = false;           // the population was set by it; the others are predicted
+  std::string_view how;          // the value was had from the publication's figures
+  int statement = -1;            // of a questionnaire: which of statements() asks the same; -1: none
+  bool of_answers = false;       // to a questionnaire
+  bool of_two = false;           // of a person's first two performances, here their mean
+  std::string_view metric = {};  // of a ratio or a level: ours of the same thing; empty: there is none
 };
 std::span<const ReferenceEffect> reference_effects();
 

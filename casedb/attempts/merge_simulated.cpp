@@ -1,17 +1,18 @@
 #include "casedb/attempts/merge_simulated.h"
 
-#include <cstdlib>
+#include <algorithm>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "assessment/population/streams.h"
-#include "casedb/attempts/attempts.h"
+#include "casedb/attempts/add_unless.h"
 #include "casedb/attempts/made_at.h"
 #include "casedb/cases/case_checks.h"
-#include "casedb/people/facts.h"
+#include "casedb/database/disk.h"
+#include "casedb/database/migrate.h"
+#include "casedb/database/sqlite.h"
 #include "casedb/people/simulated_people.h"
 
 namespace seldinger::casedb {
@@ -29,19 +30,6 @@ struct Arriving {
   SimulatedTruth truth;
   std::vector<AttemptRow> attempts;
 };
-
-population::Person person_of(Library& from, const SimulatedTruth& truth) {
-  population::Person person;
-  person.key = population::person_key(truth.seed, truth.group, truth.number);
-  person.group = truth.group;
-  person.number = truth.number;
-  person.ability = truth.ability;
-  person.strategy = truth.strategy;
-  const auto facts = newest_facts(list_facts(from, truth.person_id));
-  if (const auto years = facts.find("years_in_radiology"); years != facts.end())
-    person.years = std::strtod(years->second.answer.c_str(), nullptr);
-  return person;
-}
 
 bool is_same(const SimulatedTruth& a, const SimulatedTruth& b) {
   return a.people_version == b.people_version && a.ability == b.ability && a.strategy == b.strategy;
@@ -66,7 +54,13 @@ base::Result<void> check_case(Library& into, Library& from, const std::string& c
   return {};
 }
 
-base::Result<void> add(Library& into, Library& from, const AttemptRow& row) {
+bool is_there(Library& into, const AttemptRow& row) {
+  const std::vector<AttemptRow> there = list_bare_attempts_of(into, *row.person_id);
+  return std::any_of(there.begin(), there.end(), [&](const AttemptRow& one) { return key_of(one) == key_of(row); });
+}
+
+// Whether it was added: somebody else may have been faster.
+base::Result<bool> add(Library& into, Library& from, const AttemptRow& row) {
   NewAttempt made;
   static_cast<AttemptHead&>(made) = row;
   made.duration_s = row.duration_s;
@@ -82,18 +76,41 @@ base::Result<void> add(Library& into, Library& from, const AttemptRow& row) {
     if (!picture) return picture.error();
     made.picture_png = std::move(*picture);
   }
-  const auto added = add_attempt(into, made);
-  return added ? base::Result<void>() : added.error();
+  const auto added = add_attempt_unless(into, made, [&] { return is_there(into, row); });
+  return added ? base::Result<bool>(added->has_value()) : added.error();
+}
+
+// Whether a database is of today's schema; of what cannot be read so, opening the library tells.
+bool is_older(const std::filesystem::path& file, const Schema& schema) {
+  if (what_is(file) != Place::file) return false;
+  try {
+    // Where nobody writes, not even SQLite's index of the log is left behind.
+    const bool in_use = what_is(file.string() + "-wal") != Place::nothing;
+    Sqlite database(file, in_use ? Sqlite::Mode::read_only : Sqlite::Mode::immutable);
+    const auto version = schema_version(database, schema);
+    return version && *version > 0 && *version < newest_version(schema);
+  } catch (const DatabaseFailure&) {
+    return false;
+  }
 }
 
 }  // namespace
+
+base::Result<Library> open_to_merge(const std::filesystem::path& folder) {
+  if (is_older(folder / kDatabaseFile, library_schema()) || is_older(folder / kIdentitiesFile, identities_schema()))
+    return base::Error{"older_schema", "that library was written by an older version of this program"};
+  auto library = Library::open(folder);
+  if (library)
+    for (Sqlite* database : {&library->database(), &library->identities()}) database->refuse_writing();
+  return library;
+}
 
 base::Result<Merged> merge_simulated(Library& into, Library& from) {
   const std::vector<SimulatedTruth> here = list_simulated_truths(into);
   std::vector<Arriving> all;
   std::set<std::string> case_ids;
   for (SimulatedTruth& truth : list_simulated_truths(from)) {
-    Arriving& one = all.emplace_back(Arriving{person_of(from, truth), truth, {}});
+    Arriving& one = all.emplace_back(Arriving{simulated_person_of(from, truth), truth, {}});
     if (const auto sound = check_person(one, here); !sound) return sound.error();
     one.attempts = list_bare_attempts_of(from, truth.person_id);
     for (const AttemptRow& row : one.attempts) case_ids.insert(row.case_id);
@@ -110,12 +127,10 @@ base::Result<Merged> merge_simulated(Library& into, Library& from) {
     std::set<decltype(key_of({}))> there;
     for (const AttemptRow& row : list_bare_attempts_of(into, person_id)) there.insert(key_of(row));
     for (const AttemptRow& row : list_attempts_of(from, person_id)) {
-      if (!there.insert(key_of(row)).second) {
-        ++merged.there;
-        continue;
-      }
-      if (const auto added = add(into, from, row); !added) return added.error();
-      ++merged.attempts;
+      const bool known_before = !there.insert(key_of(row)).second;
+      const auto added = known_before ? base::Result<bool>(false) : add(into, from, row);
+      if (!added) return added.error();
+      ++(*added ? merged.attempts : merged.there);
     }
   }
   return merged;

@@ -2,6 +2,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "casedb/attempts/add_unless.h"
 #include "casedb/attempts/attempt_columns.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/database/new_assets.h"
@@ -137,6 +138,12 @@ std::vector<AttemptRow> read_attempts(Statement attempts, Statement metrics) {
 }  // namespace
 
 base::Result<std::string> add_attempt(Library& library, const NewAttempt& attempt) {
+  const auto added = add_attempt_unless(library, attempt, [] { return false; });
+  return added ? base::Result<std::string>(**added) : added.error();
+}
+
+base::Result<std::optional<std::string>> add_attempt_unless(Library& library, const NewAttempt& attempt,
+                                                            const std::function<bool()>& is_there) {
   Sqlite& database = library.database();
   const std::vector<cases::RecordingChunk> chunks = cases::chunks_from_recording(attempt.recording);
   NewAssets assets(library);
@@ -144,6 +151,7 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
   if (!attempt.picture_png.empty()) picture_sha256 = assets.add(attempt.picture_png);
 
   Transaction transaction(database);
+  if (is_there()) return std::optional<std::string>();
   if (const auto known = check_head(database, attempt); !known) return known.error();
   assets.make_sure();
   std::string attempt_id = new_uuid();
@@ -155,7 +163,7 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
   keep_conditions(database, attempt_id, attempt, attempt.conditions);
   transaction.commit();
   assets.keep();
-  return attempt_id;
+  return std::optional(std::move(attempt_id));
 }
 
 base::Result<void> close_attempt(Library& library, const std::string& attempt_id, const AttemptOutcome& outcome) {

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "assessment/population/streams.h"
 #include "casedb/database/question.h"
@@ -83,6 +84,17 @@ std::string simulated_person(Library& library, const population::Person& person,
 
 bool is_simulated(Library& library, const std::string& person_id) {
   return question(library.database(), "simulated_person").bind("person_id", person_id).step();
+}
+
+population::Person simulated_person_of(Library& library, const SimulatedTruth& truth) {
+  // What is not planted by the group is the seed's and the number's alone.
+  population::Person person = population::drawn_person({truth.group, {}, 0.0}, truth.seed, truth.number);
+  person.ability = truth.ability;
+  person.strategy = truth.strategy;
+  const auto facts = newest_facts(list_facts(library, truth.person_id));
+  if (const auto years = facts.find("years_in_radiology"); years != facts.end())
+    person.years = std::strtod(years->second.answer.c_str(), nullptr);
+  return person;
 }
 
 std::vector<SimulatedTruth> list_simulated_truths(Library& library) {

@@ -27,5 +27,7 @@ std::string simulated_person_id(const assessment::population::Person& person);
 std::string simulated_person(Library& library, const assessment::population::Person& person, std::uint64_t seed);
 bool is_simulated(Library& library, const std::string& person_id);
 std::vector<SimulatedTruth> list_simulated_truths(Library& library);  // by group, seed and number
+// Whoever it is the truth of, with the years that this library has of them.
+assessment::population::Person simulated_person_of(Library& library, const SimulatedTruth& truth);
 
 }  // namespace seldinger::casedb

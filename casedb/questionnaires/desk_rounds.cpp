@@ -5,7 +5,6 @@
 #include "casedb/attempts/attempts.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
-#include "casedb/questionnaires/responses.h"
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
@@ -31,6 +30,20 @@ std::vector<Round> due_at_desk(Library& library, const std::string& person_id) {
   return due;
 }
 
+base::Result<BegunSet> begin_set_of(Library& library, const Round& round, const std::string& person_id,
+                                    const std::string& group) {
+  auto made = begin_set(
+      library, round,
+      {.code = round.study_id ? pseudonym_of(library, person_id) : std::string(), .group = group, .language = ""});
+  if (!made) return made.error();
+  question(library.database(), "add_desk_response")
+      .bind("response_id", made->response_id)
+      .bind("round_id", round.round_id)
+      .bind("person_id", person_id)
+      .run();
+  return made;
+}
+
 base::Result<std::string> answer_at_desk(Library& library, const std::string& round_id,
                                          const std::string& person_id) {
   Transaction transaction(library.database());
@@ -52,15 +65,9 @@ base::Result<std::string> answer_at_desk(Library& library, const std::string& ro
         .bind("draft_key", draft_key(secret))
         .run();
   } else {
-    const auto made =
-        begin_set(library, *round, {.code = round->study_id ? pseudonym_of(library, person_id) : std::string()});
+    const auto made = begin_set_of(library, *round, person_id, "");
     if (!made) return made.error();
     secret = made->secret;
-    question(library.database(), "add_desk_response")
-        .bind("response_id", made->response_id)
-        .bind("round_id", round->round_id)
-        .bind("person_id", person_id)
-        .run();
   }
   transaction.commit();
   return secret;

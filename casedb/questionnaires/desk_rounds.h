@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "casedb/questionnaires/rounds.h"
+#include "casedb/questionnaires/responses.h"
 #include "sim/base/result.h"
 
 namespace seldinger::casedb {
@@ -19,5 +19,9 @@ std::vector<Round> due_at_desk(Library& library, const std::string& person_id);
 // more, or of a new one. `no_round`, `not_due`, and as begin_response.
 base::Result<std::string> answer_at_desk(Library& library, const std::string& round_id,
                                          const std::string& person_id);
+
+// A set of answers that are this person's, within a transaction of the caller's: as begin_set.
+base::Result<BegunSet> begin_set_of(Library& library, const Round& round, const std::string& person_id,
+                                    const std::string& group);
 
 }  // namespace seldinger::casedb

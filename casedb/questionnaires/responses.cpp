@@ -234,6 +234,17 @@ base::Result<void> submit_draft(Library& library, const std::string& secret) {
   return {};
 }
 
+base::Result<void> send_simulated(Library& library, const questionnaire::Form& form, const std::string& response_id,
+                                  const std::map<std::string, std::string>& typed) {
+  base::Error error{"bad_answer", "an answer does not fit its item"};
+  const ItemAnswers answers = read_typed(form, typed, "", error.findings);
+  if (!error.findings.empty()) return error;
+  for (const auto& [item_id, answer] : answers) put_answer(library, response_id, item_id, answer);
+  question(library.database(), "mark_response_simulated").bind("response_id", response_id).run();
+  fill_and_submit(library, form, response_id);
+  return {};
+}
+
 base::Result<std::size_t> add_paper_forms(Library& library, const std::string& code,
                                           const std::vector<PaperForm>& papers) {
   Transaction transaction(library.database());

@@ -16,7 +16,7 @@ using ItemAnswers = std::map<std::string, assessment::questionnaire::ItemAnswer>
 
 struct ResponseSet {
   std::string response_id, respondent, group;
-  std::string source;  // "page", "paper", "window"
+  std::string source;  // "page", "paper", "window", "simulated"
   std::int64_t begun_us = 0;
   std::optional<std::int64_t> submitted_us;
   ItemAnswers answers;
@@ -59,6 +59,10 @@ base::Result<void> save_draft(Library& library, const std::string& secret,
                               const std::map<std::string, std::string>& typed);
 // Once; the draft is gone.
 base::Result<void> submit_draft(Library& library, const std::string& secret);
+// A simulated person's or rater's answers to what was begun, kept as such and sent, within a transaction of the
+// caller's: `bad_answer`.
+base::Result<void> send_simulated(Library& library, const assessment::questionnaire::Form& form,
+                                  const std::string& response_id, const std::map<std::string, std::string>& typed);
 
 // From paper: all or none. Items that a row does not name are missing. `bad_answers` with every place, `no_round`,
 // `rated_round`, `desk_round`, `round_closed`.

@@ -127,28 +127,6 @@ base::Result<Rater> find_rater(Library& library, const std::string& secret) {
   return Rater{row.text("round_id"), row.text("rater")};
 }
 
-// A row of ratings_of_round.
-struct TaskRow {
-  RatingTask task;
-  std::string response_id, rater, view_id, attempt_id, sheet_sha256;
-};
-std::vector<TaskRow> tasks_of(Library& library, const std::string& round_id) {
-  std::vector<TaskRow> tasks;
-  Statement rows = question(library.database(), "ratings_of_round");
-  for (rows.bind("round_id", round_id); rows.step();) {
-    TaskRow& one = tasks.emplace_back();
-    one.response_id = rows.text("response_id");
-    one.rater = rows.text("rater");
-    one.view_id = rows.text("view_id");
-    one.attempt_id = rows.text("attempt_id");
-    one.sheet_sha256 = rows.text("sheet_sha256");
-    one.task.number = static_cast<std::size_t>(rows.integer("number"));
-    one.task.part = base::from_name(kRatingPartNames, rows.view("part")).value_or(assessment::rating::Part::rated);
-    one.task.sent = !rows.is_null("submitted_us");
-  }
-  return tasks;
-}
-
 Known known_of(Library& library, const std::string& view_id) {
   Known known;
   Statement rows = question(library.database(), "rating_known_of_view");
@@ -156,10 +134,10 @@ Known known_of(Library& library, const std::string& view_id) {
   return known;
 }
 
-base::Result<TaskRow> find_task(Library& library, const std::string& secret, std::size_t number) {
+base::Result<AskedRating> find_task(Library& library, const std::string& secret, std::size_t number) {
   const auto rater = find_rater(library, secret);
   if (!rater) return rater.error();
-  for (TaskRow& one : tasks_of(library, rater->round_id))
+  for (AskedRating& one : list_asked_ratings(library, rater->round_id))
     if (one.rater == rater->rater && one.task.number == number) return std::move(one);
   return base::Error{"no_rating", "there is no replay of that number on this bench"};
 }
@@ -226,6 +204,24 @@ base::Result<OpenedRatingRound> open_rating_round(Library& library, const NewRat
   return opened;
 }
 
+std::vector<AskedRating> list_asked_ratings(Library& library, const std::string& round_id) {
+  std::vector<AskedRating> asked;
+  Statement rows = question(library.database(), "ratings_of_round");
+  for (rows.bind("round_id", round_id); rows.step();) {
+    AskedRating& one = asked.emplace_back();
+    one.response_id = rows.text("response_id");
+    one.rater = rows.text("rater");
+    one.view_id = rows.text("view_id");
+    one.attempt_id = rows.text("attempt_id");
+    one.sheet_sha256 = rows.text("sheet_sha256");
+    one.simulated = rows.integer("simulated") != 0;
+    one.task.number = static_cast<std::size_t>(rows.integer("number"));
+    one.task.part = base::from_name(kRatingPartNames, rows.view("part")).value_or(assessment::rating::Part::rated);
+    one.task.sent = !rows.is_null("submitted_us");
+  }
+  return asked;
+}
+
 std::string rater_secret(const std::string& typed_key) {
   std::string key;
   for (const char c : typed_key)
@@ -242,7 +238,7 @@ base::Result<RatingBench> find_rating_bench(Library& library, const std::string&
   const auto forms = find_forms(library, round->form_id, round->version);
   if (!forms) return forms.error();
   RatingBench bench{*round, forms->front().form.title, forms->front().form.introduction, rater->rater, {}};
-  for (const TaskRow& one : tasks_of(library, rater->round_id))
+  for (const AskedRating& one : list_asked_ratings(library, rater->round_id))
     if (one.rater == rater->rater) bench.tasks.push_back(one.task);
   return bench;
 }
@@ -287,13 +283,18 @@ base::Result<SentRatings> list_ratings(Library& library, const std::string& code
   SentRatings all{*round, std::move(forms->front()), 0, 0, {}};
   Statement row = question(library.database(), "rating_round");
   if (row.bind("round_id", round->round_id).step()) all.each = static_cast<std::size_t>(row.integer("each"));
-  for (const TaskRow& one : tasks_of(library, round->round_id)) {
+  for (const AskedRating& one : list_asked_ratings(library, round->round_id)) {
     ++all.asked;
     if (!one.task.sent) continue;
     all.ratings.push_back({one.rater, one.view_id, one.attempt_id, one.task.part, one.task.number,
-                           answers_of(library, one.response_id), known_of(library, one.view_id)});
+                           answers_of(library, one.response_id), known_of(library, one.view_id), one.simulated});
   }
   return all;
+}
+
+std::size_t count_simulated(const SentRatings& ratings) {
+  return static_cast<std::size_t>(std::count_if(ratings.ratings.begin(), ratings.ratings.end(),
+                                                [](const SentRating& one) { return one.simulated; }));
 }
 
 std::vector<rating::Rating> scores_of(const SentRatings& ratings, const std::string& item_id) {

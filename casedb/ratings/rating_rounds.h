@@ -72,6 +72,15 @@ base::Result<RatingPage> find_rating(Library& library, const std::string& secret
 base::Result<void> keep_rating(Library& library, const std::string& secret, std::size_t number,
                                const std::map<std::string, std::string>& typed, bool send);
 
+// A rating of a round, made or still to be made.
+struct AskedRating {
+  RatingTask task;
+  std::string response_id, rater, view_id, attempt_id, sheet_sha256;
+  bool simulated = false;  // by a simulated rater
+};
+// By rater, in their order; of a study's round only of what people consent to, or nobody made.
+std::vector<AskedRating> list_asked_ratings(Library& library, const std::string& round_id);
+
 // What was sent.
 struct SentRating {
   std::string rater, view_id, attempt_id;
@@ -79,6 +88,7 @@ struct SentRating {
   std::size_t number = 0;
   ItemAnswers answers;
   std::map<std::string, double> known;
+  bool simulated = false;  // by a simulated rater
 };
 struct SentRatings {
   Round round;
@@ -87,6 +97,7 @@ struct SentRatings {
   std::vector<SentRating> ratings;  // by rater, in their order
 };
 base::Result<SentRatings> list_ratings(Library& library, const std::string& code);  // `no_round`, `not_rated`
+std::size_t count_simulated(const SentRatings& ratings);                            // of those sent
 
 // Of an item, or of the mean of all (empty); those without a score are left out.
 std::vector<assessment::rating::Rating> scores_of(const SentRatings& ratings, const std::string& item_id);

@@ -8,15 +8,15 @@ std::string ratings_csv(const casedb::SentRatings& ratings, bool all) {
   namespace questionnaire = assessment::questionnaire;
   const questionnaire::Form& form = ratings.form.form;
   CsvLine line;
-  for (const char* column :
-       {"form", "version", "form_sha256", "round", "rater", "number", "part", "replay", "attempt", "mean"})
+  for (const char* column : {"form", "version", "form_sha256", "round", "rater", "simulated", "number", "part",
+                             "replay", "attempt", "mean"})
     line.text(column);
   for (const questionnaire::Item& item : form.items) line.text(item.id);
   std::string csv = line.take();
   for (const casedb::SentRating& one : ratings.ratings) {
     if (!all && one.part != assessment::rating::Part::rated) continue;
     line.text(form.id).whole(std::int64_t{form.version}).text(ratings.form.body_hash).text(ratings.round.code);
-    line.text(one.rater).whole(static_cast<std::int64_t>(one.number));
+    line.text(one.rater).whole(std::int64_t{one.simulated ? 1 : 0}).whole(static_cast<std::int64_t>(one.number));
     line.text(base::name_of(casedb::kRatingPartNames, one.part)).text(one.view_id).text(one.attempt_id);
     line.number(questionnaire::mean_score(form, one.answers));
     for (const questionnaire::Item& item : form.items) {

@@ -41,14 +41,14 @@ std::string responses_csv(const casedb::Responses& responses) {
 
 std::string scores_csv(const casedb::Responses& responses) {
   CsvLine line;
-  line.text("respondent").text("group");
+  line.text("respondent").text("group").text("source");
   // The round asks one version, and that has the same items in every language.
   for (const questionnaire::Item& item : responses.forms.begin()->second.form.items)
     if (counts(item)) line.text(item.id);
   std::string csv = line.take();
   for (const auto& [questionnaire_id, set] : responses.sets) {
     const questionnaire::Form& form = responses.forms.at(questionnaire_id).form;
-    line.text(set.respondent).text(set.group);
+    line.text(set.respondent).text(set.group).text(set.source);
     for (const questionnaire::Item& item : form.items)
       if (counts(item)) line.number(questionnaire::scored(form, item, answer_to(set, item)));
     csv += line.take();

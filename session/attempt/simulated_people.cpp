@@ -1,11 +1,9 @@
 #include "session/attempt/simulated_people.h"
 
 #include <map>
-#include <span>
 
 #include "casedb/database/uuid.h"
 #include "casedb/people/simulated_people.h"
-#include "sim/base/hash.h"
 
 namespace seldinger::session {
 namespace {
@@ -43,10 +41,6 @@ void each_person(const PeopleWish& wish, const Told& told) {
 
 }  // namespace
 
-std::uint64_t case_key_of(const std::string& title) noexcept {
-  return base::hash_bytes(std::as_bytes(std::span(title)));
-}
-
 std::vector<SimulatedTrial> people_trials(const PeopleWish& wish, std::uint64_t case_key) {
   std::vector<SimulatedTrial> trials;
   each_person(wish, [&](const population::Person& person) { add_trials(wish, person, case_key, 0, trials); });
@@ -62,7 +56,7 @@ StoredPeople people_trials(casedb::Library& library, const PeopleWish& wish, con
     for (casedb::AttemptRow& row : casedb::list_attempts_of(library, person_id))
       if (was_made_at(row, task)) by_seed.emplace(row.seed, std::move(row));
     std::vector<SimulatedTrial> own;
-    add_trials(wish, person, case_key_of(task.row.title), now_us, own);
+    add_trials(wish, person, population::case_key_of(task.row.title), now_us, own);
     for (SimulatedTrial& trial : own) {
       if (const auto row = by_seed.find(trial.seed); row != by_seed.end()) {
         stored.there.push_back({row->second.attempt_id, row->second.operator_name, trial.seed,

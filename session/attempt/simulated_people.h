@@ -22,9 +22,6 @@ struct PeopleWish {
   std::size_t shard = 1, shards = 1;  // of the people those whose number falls to this shard
 };
 
-// The case by what it is called: every version of a case, in every library, is the same to a person.
-std::uint64_t case_key_of(const std::string& title) noexcept;
-
 // Without a library: `person` is the number, `number` the attempt's. Who drops out is in no later session.
 std::vector<SimulatedTrial> people_trials(const PeopleWish& wish, std::uint64_t case_key);
 // Of people who are added to the library where they are not in it; those whose attempt is stored already are left

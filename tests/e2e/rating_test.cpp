@@ -131,5 +131,47 @@ TEST_F(RatingCommands, OfAStudyWhosePlanIsADraftNothingIsExportedToItsResearcher
   library_.done("questionnaire export " + round + " --out " + at("y.csv") + " --by rita");
 }
 
+// Simulated people's replays by simulated raters, and their own answers: in agreement, tables and the report, and
+// each says that it is simulated.
+TEST_F(RatingCommands, SimulatedAnswersSayThatTheyAre) {
+  const std::string attempt = library_.ask(
+      "simulate --case 'Drill 1' --operator expert --people 2 --seed 1 --no-pictures")["attempts"][0]["attempt_id"];
+  library_.done("study new Simulated");
+  fixtures::run(std::string(fixtures::kProgram) + " study template --library '" + library_.path() +
+                    "' --case 'Drill 1' --out '" + at("plan.json") + "'",
+                library_.folder());
+  std::string plan = fixtures::whole_file(at("plan.json"));
+  const std::string people = "\"people\": \"real\"";
+  ASSERT_NE(plan.find(people), plan.npos);
+  std::ofstream(at("simulated.json")) << plan.replace(plan.find(people), people.size(),
+                                                      "\"people\": \"simulated\"");
+  library_.done("study plan Simulated " + at("simulated.json"));
+  library_.done("study freeze Simulated");
+  library_.done("study enrol Simulated --all");
+  const std::string rated =
+      library_.ask("rating open osats-grs --title Spring --study Simulated --attempt " + attempt)["code"];
+  const std::string asked = library_.ask("questionnaire open osats-grs --title Day --study Simulated")["code"];
+  EXPECT_EQ(library_.ask("simulate answers " + rated)["sent"], 2U);
+  EXPECT_EQ(library_.ask("simulate answers " + asked)["sent"], 2U);
+  EXPECT_EQ(library_.ask("simulate answers " + asked)["there"], 2U);
+  EXPECT_EQ(library_.ask("rating show " + rated)["simulated"], 2U);
+  library_.done("rating export " + rated + " --out " + at("ratings.csv"));
+  library_.done("questionnaire export " + asked + " --out " + at("answers.csv"));
+  const auto ratings = fixtures::csv_table(fixtures::whole_file(at("ratings.csv")));
+  ASSERT_EQ(ratings.rows.size(), 2U);
+  for (std::size_t row = 0; row < 2; ++row) EXPECT_EQ(ratings.cell(row, "simulated"), "1");
+  const auto answers = fixtures::csv_table(fixtures::whole_file(at("answers.csv")));
+  ASSERT_EQ(answers.rows.size(), 2U * 7U);
+  for (std::size_t row = 0; row < answers.rows.size(); ++row) {
+    EXPECT_EQ(answers.cell(row, "source"), "simulated");
+    EXPECT_EQ(answers.cell(row, "respondent").substr(0, 2), "S-");
+  }
+  library_.done("report validity --study Simulated --out " + at("report.html"));
+  const std::string report = fixtures::whole_file(at("report.html"));
+  EXPECT_NE(report.find("SIMULATED"), report.npos);
+  EXPECT_NE(report.find("Global rating of a needle puncture"), report.npos);
+  library_.done("check");
+}
+
 }  // namespace
 }  // namespace seldinger

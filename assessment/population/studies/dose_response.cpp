@@ -4,14 +4,16 @@
 #include <cmath>
 
 #include "assessment/population/streams.h"
+#include "assessment/statistics/groups/effect_sizes.h"
 #include "assessment/statistics/ranks.h"
 #include "assessment/statistics/relations/discrimination.h"
 
 namespace seldinger::assessment::population {
 namespace {
 
-constexpr std::size_t kCrowd = 20'000;    // areas of so many are found at once, and their mean is the truth
-constexpr std::size_t kFewest = 2;        // with a value, in either group
+constexpr std::size_t kCrowd = 20'000;  // areas of so many are found at once, and their mean is the truth
+constexpr std::size_t kFewest = 2;      // with a value, in either group
+constexpr double kMostSkewness = 0.5, kMostKurtosis = 1.0;
 constexpr std::uint64_t kTruthStudy = 0;  // the number of the study that tells the truth: none of those drawn
 
 using Rows = std::vector<Values>;
@@ -58,6 +60,29 @@ double paired_correlation(const Rows& a, const Rows& b, std::size_t m) {
   return pp > 0.0 && qq > 0.0 ? pq / std::sqrt(pp * qq) : 0.0;
 }
 
+// Sums of a crowd's values, whole parts at a time.
+struct Moments {
+  double n = 0.0, mean = 0.0, second = 0.0, third = 0.0, fourth = 0.0;  // about the mean
+  void add(double x) {                                                  // Pébay, Sandia report SAND2008-6212
+    const double before = n++, delta = x - mean, part = delta / n, square = part * part,
+                 term = delta * part * before;
+    mean += part;
+    fourth += term * square * (n * n - 3.0 * n + 3.0) + 6.0 * square * second - 4.0 * part * third;
+    third += term * part * (n - 2.0) - 3.0 * part * second;
+    second += term;
+  }
+  bool is_normal_enough() const {
+    if (!(second > 0.0)) return false;
+    const double skewness = std::sqrt(n) * third / std::pow(second, 1.5);
+    return std::abs(skewness) <= kMostSkewness && std::abs(n * fourth / (second * second) - 3.0) <= kMostKurtosis;
+  }
+};
+
+std::optional<double> difference_of(const Moments& less, const Moments& more) {
+  if (!less.is_normal_enough() || !more.is_normal_enough()) return std::nullopt;
+  return (more.mean - less.mean) / std::sqrt((less.second + more.second) / (less.n + more.n - 2.0));
+}
+
 // By metric and shift.
 using Responses = std::vector<std::vector<MetricResponse>>;
 
@@ -67,13 +92,18 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
   const std::size_t metrics = responses.size();
   std::vector<bool> varies(metrics, false);
   std::vector<std::vector<double>> sums(metrics, std::vector<double>(groups.size())), weights = sums;
+  std::vector<Moments> of_others(metrics);
+  std::vector<std::vector<Moments>> of_shifted(metrics, std::vector<Moments>(groups.size()));
   for (std::size_t first = 1; first <= options.truth_people; first += kCrowd) {
     const std::size_t past = std::min(first + kCrowd, options.truth_people + 1);
     const Rows base = drawn_people(surrogate, others(), options.seed, kTruthStudy, first, past);
+    for (std::size_t m = 0; m < metrics; ++m)
+      for (const double one : column(base, m)) of_others[m].add(one);
     for (std::size_t s = 0; s < groups.size(); ++s) {
       const Rows rows = drawn_people(surrogate, groups[s], options.seed, kTruthStudy, first, past);
       for (std::size_t m = 0; m < metrics; ++m) {
         const auto less = column(base, m), more = column(rows, m);
+        for (const double one : more) of_shifted[m][s].add(one);
         if (std::min(less.size(), more.size()) < kFewest) continue;
         const auto roc = statistics::roc_area(more, less);
         varies[m] = varies[m] || roc.variance() > 0.0;
@@ -86,7 +116,10 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
   }
   for (std::size_t m = 0; m < metrics; ++m)
     for (std::size_t s = 0; s < groups.size(); ++s)
-      if (weights[m][s] > 0.0) responses[m][s].area = sums[m][s] / weights[m][s];
+      if (weights[m][s] > 0.0) {
+        responses[m][s].area = sums[m][s] / weights[m][s];
+        responses[m][s].d = difference_of(of_others[m], of_shifted[m][s]);
+      }
   return varies;
 }
 
@@ -97,6 +130,11 @@ void add_study(const Rows& base, const Rows& rows, std::size_t m, MetricResponse
   ++one.intervals;
   one.mean_width += (interval.high - interval.low - one.mean_width) / static_cast<double>(one.intervals);
   one.covered += interval.low <= one.area && one.area <= interval.high ? 1U : 0U;
+  if (!one.d) return;
+  const auto d = statistics::cohen_d(more, less);
+  if (!d.ci95) return;
+  ++one.d_intervals;
+  one.d_covered += d.ci95->low <= *one.d && *one.d <= d.ci95->high ? 1U : 0U;
 }
 
 }  // namespace

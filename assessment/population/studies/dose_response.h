@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,7 +24,11 @@ struct MetricResponse {
   double area = 0.5;                       // P(shifted > others) + ½ P(equal) in the crowd
   std::size_t intervals = 0, covered = 0;  // of the studies: with an interval; it holds `area`
   double mean_width = 0.0;                 // of the intervals
-  double paired = 0.0;                     // Spearman's correlation of people of the same number, kPairs of them
+  // Shifted minus others in pooled standard deviations, in the crowd; nothing where the metric is not normal enough
+  // for it in both groups (skewness within ±0.5, excess kurtosis within ±1).
+  std::optional<double> d;
+  std::size_t d_intervals = 0, d_covered = 0;
+  double paired = 0.0;  // Spearman's correlation of people of the same number, kPairs of them
 };
 struct MetricDose {
   std::string metric;
@@ -31,7 +36,7 @@ struct MetricDose {
 };
 constexpr std::size_t kPairs = 5000;
 // Every metric that has a value in the crowd and is not the same in all. Intervals are of the area under the ROC
-// curve: the logit of DeLong's (assessment/statistics/relations/discrimination.h).
+// curve: the logit of DeLong's (assessment/statistics/relations/discrimination.h); of d the non-central t's.
 std::vector<MetricDose> dose_response(const Surrogate& surrogate, std::span<const double> shifts,
                                       const DoseOptions& options);
 

@@ -1,7 +1,7 @@
 -- Every rating of a round, by rater and in their order; of a study's round only what people consent to, or nobody
 -- made.
 SELECT rating.response_id, rating.rater, rating.number, rating.view_id, rating.part, rating_view.attempt_id,
-  rating_view.sheet_sha256, response_set.submitted_us
+  rating_view.sheet_sha256, response_set.submitted_us, response_set.simulated
 FROM rating
 JOIN rating_view USING (view_id)
 JOIN response_set USING (response_id)

@@ -259,6 +259,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"questionnaire export", {round_, "--out", out + ".csv"}, Action::see_responses, own_study},
       {"questionnaire export", {other_round_, "--out", out + ".csv"}, Action::see_responses},
       {"questionnaire export", {"XXXXXX", "--out", out + ".csv"}, Action::see_responses},
+      {"simulate answers", {round_}, Action::manage_questionnaires},
       {"rating open", {"short", "--title", "Replays"}, Action::manage_questionnaires},
       {"rating show", {round_}, Action::see_responses, own_study},
       {"rating export", {other_round_, "--out", out + ".csv"}, Action::see_responses},

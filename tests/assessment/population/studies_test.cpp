@@ -80,6 +80,15 @@ TEST(SimulatedStudies, IntervalsOfEveryMetricHoldWhatIsTrueOfIt) {
       EXPECT_LT(std::abs(at.paired), 0.06) << one.metric;
       EXPECT_NEAR(at.mean_width, 0.28, 0.06) << one.metric;  // 2 · 1.96 √(61/(12 · 900)), less where there are ties
     }
+    // Time is normal, 60 − 8 strategy + noise, and of no ability; distance is log-normal, a count no normal number.
+    for (const MetricResponse& at : one.responses) {
+      EXPECT_EQ(at.d.has_value(), one.metric == "time_total") << one.metric;
+      if (!at.d) continue;
+      EXPECT_NEAR(*at.d, 0.0, 5.0 * std::sqrt(2.0 / 45'000.0));
+      ASSERT_EQ(at.d_intervals, kStudies);
+      EXPECT_NEAR(static_cast<double>(at.d_covered) / static_cast<double>(at.d_intervals), 0.95,
+                  0.015 + three_errors(0.95, kStudies));
+    }
     const double shifted = one.responses[1].area;
     if (one.metric == "tip_target_dist") {
       EXPECT_NEAR(shifted, 0.379, 0.02);

@@ -27,7 +27,17 @@ TEST(Surrogate, AgreesWithAttemptsThatItDoesNotKnow) {
     EXPECT_LT(agreement.rank_correlation_own, 0.05);
     EXPECT_EQ(agreement.shares_beyond_chance, 0U);
     EXPECT_EQ(agreement.pairs_off, 0U) << agreement.worst_pair << agreement.worst_rank_correlation;
+    // Shares of nulls and of zeros of four metrics, three quantiles of three of them, three pairs.
+    EXPECT_EQ(agreement.comparisons, 4U * 2U + 3U * 3U + 3U);
+    EXPECT_LT(agreement.furthest_errors, 3.0);
   }
+}
+
+TEST(Surrogate, AttemptsThatItWasFittedToAreKnownAgain) {
+  std::vector<SimulatedPoint> some = attempts_of({0.0, 1.2}, 77, 50);
+  EXPECT_FALSE(was_fitted_to(fitted(), some));
+  some.push_back(fitted().attempts()[1234]);
+  EXPECT_TRUE(was_fitted_to(fitted(), some));
 }
 
 TEST(Surrogate, AWrongOneIsFoundOut) {
@@ -37,6 +47,7 @@ TEST(Surrogate, AWrongOneIsFoundOut) {
   const auto wrong = Surrogate::fit(known_mark(), points);
   const auto agreement = agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3);
   EXPECT_GT(agreement.quantiles_beyond_chance, 0U);
+  EXPECT_GT(agreement.furthest_errors, 5.0);
   EXPECT_GT(agreement.quantile_own_sd, 0.1);
 }
 

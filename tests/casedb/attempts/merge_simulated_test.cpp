@@ -2,8 +2,12 @@
 #include "casedb/attempts/merge_simulated.h"
 
 #include <memory>
+#include <thread>
+#include <vector>
 
+#include "casedb/attempts/add_unless.h"
 #include "casedb/attempts/attempts.h"
+#include "casedb/database/migrate.h"
 #include "casedb/people/people.h"
 #include "casedb/people/simulated_people.h"
 #include "tests/casedb/library_samples.h"
@@ -20,8 +24,8 @@ population::Person novice(std::uint64_t number) {
 class MergeSimulatedTest : public testing::Test {
  protected:
   // Two libraries with the same case: the second is a copy of the first.
-  MergeSimulatedTest() {
-    const auto folder = fresh_folder();
+  MergeSimulatedTest() : folder_(fresh_folder()) {
+    const auto& folder = folder_;
     {
       Library made = open_library(folder / "into");
       case_id_ = add_case(made, sample_case());
@@ -40,6 +44,7 @@ class MergeSimulatedTest : public testing::Test {
     made.person_id = simulated_person(library, person, 7);
     return made;
   }
+  std::filesystem::path folder_;
   std::string case_id_, lesion_id_, tina_;
   std::unique_ptr<Library> into_, from_;
 };
@@ -84,6 +89,59 @@ TEST_F(MergeSimulatedTest, EachArrivesOnceAndWhole) {
   EXPECT_EQ(again->people + again->attempts, 0U);
   EXPECT_EQ(again->there, 3U);
   EXPECT_EQ(count_attempts(*into_), 3U);
+}
+
+// Of one shard at once, each through libraries of their own.
+TEST_F(MergeSimulatedTest, TwoMergesAtOnceStoreNothingTwice) {
+  constexpr std::uint64_t kAttempts = 12;
+  for (std::uint64_t seed = 1; seed <= kAttempts; ++seed)
+    add_attempt(*from_, attempt_of(*from_, novice(1 + seed % 3), seed)).value();
+  std::vector<Merged> merged(2);
+  std::vector<std::thread> threads;
+  for (Merged& one : merged)
+    threads.emplace_back([&] {
+      Library into = open_library(folder_ / "into");
+      auto from = open_to_merge(folder_ / "from");
+      one = merge_simulated(into, *from).value();
+    });
+  for (std::thread& one : threads) one.join();
+  EXPECT_EQ(count_attempts(*into_), kAttempts);
+  EXPECT_EQ(merged[0].attempts + merged[1].attempts, kAttempts);
+  EXPECT_EQ(merged[0].there + merged[1].there, kAttempts);
+}
+
+// Somebody else stored it between the look and the transaction.
+TEST_F(MergeSimulatedTest, WhatIsThereByThenIsNotAdded) {
+  const NewAttempt made = attempt_of(*into_, novice(1), 11);
+  const auto added = add_attempt_unless(*into_, made, [] { return true; });
+  ASSERT_TRUE(added.has_value());
+  EXPECT_FALSE(added->has_value());
+  EXPECT_EQ(count_attempts(*into_), 0U);
+  EXPECT_TRUE(add_attempt_unless(*into_, made, [] { return false; }).value().has_value());
+  EXPECT_EQ(count_attempts(*into_), 1U);
+}
+
+// A library of the schema before: it stays as it is, to the byte.
+TEST_F(MergeSimulatedTest, AnOlderLibraryIsRefusedAndNotMigrated) {
+  from_.reset();
+  const auto folder = folder_ / "from";
+  {
+    std::filesystem::remove(folder / kDatabaseFile);
+    Sqlite older(folder / kDatabaseFile, Sqlite::Mode::create);
+    build(older, library_schema(), newest_version(library_schema()) - 1);
+    EXPECT_EQ(older.text("PRAGMA journal_mode = WAL"), "wal");
+  }
+  const auto before = contents_of(folder);
+  EXPECT_EQ(open_to_merge(folder).error().code, "older_schema");
+  EXPECT_EQ(contents_of(folder), before);
+  EXPECT_EQ(open_to_merge(folder_ / "nowhere").error().code, "no_library");
+}
+
+TEST_F(MergeSimulatedTest, TheOtherLibraryIsOnlyRead) {
+  from_.reset();
+  auto from = open_to_merge(folder_ / "from");
+  ASSERT_TRUE(from.has_value());
+  EXPECT_THROW(add_user(*from, "tom", Role::trainee, "a password"), base::Failure);
 }
 
 TEST_F(MergeSimulatedTest, NobodyElsesIsTaken) {

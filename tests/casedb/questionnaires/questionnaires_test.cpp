@@ -168,7 +168,7 @@ TEST_F(QuestionnairesTest, ARoundTakesTwoThousandOnPages) {
       "WITH RECURSIVE number(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM number WHERE n < " +
       std::to_string(kMostBegunOnPages - 2) +
       ") INSERT INTO response_set SELECT printf('many-%d', n), round_id, questionnaire_id, printf('many-%d', n), "
-      "group_name, source, NULL, begun_us, NULL FROM number, response_set");
+      "group_name, source, NULL, begun_us, NULL, 0 FROM number, response_set");
   ASSERT_TRUE(begin_response(library_, round.code, {}));
   EXPECT_EQ(code_of(begin_response(library_, round.code, {})), "round_full");
 }

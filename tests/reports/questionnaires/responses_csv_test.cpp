@@ -74,11 +74,11 @@ TEST(ResponsesCsv, HasALineForEachRespondentAndItem) {
 
 TEST(ResponsesCsv, HoldsScoresAsStatisticsTakeThem) {
   const auto table = fixtures::csv_table(scores_csv(some_responses()));
-  EXPECT_EQ(table.header, (std::vector<std::string>{"respondent", "group", "real", "wrong", "years"}));
+  EXPECT_EQ(table.header, (std::vector<std::string>{"respondent", "group", "source", "real", "wrong", "years"}));
   ASSERT_EQ(table.rows.size(), 5U);
-  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"p0", "trainee", "1", "1", "0.1"}));
-  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"p1", "trainee", "", "4", "33.3"}));
-  EXPECT_EQ(table.rows[3], (std::vector<std::string>{"p3", "expert, \"senior\"", "", "", "0"}));
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"p0", "trainee", "paper", "1", "1", "0.1"}));
+  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"p1", "trainee", "page", "", "4", "33.3"}));
+  EXPECT_EQ(table.rows[3], (std::vector<std::string>{"p3", "expert, \"senior\"", "page", "", "", "0"}));
 }
 
 TEST(ResponsesCsv, IsWhatRReads) {

@@ -1,0 +1,43 @@
+// simulate answers.
+#include <cstdio>
+
+#include "app/acting/acting.h"
+#include "app/cli/command.h"
+#include "app/ratings/rating_json.h"
+#include "casedb/ratings/simulated_answers.h"
+
+namespace seldinger::app {
+namespace {
+
+int run_simulate_answers(const Arguments& arguments) {
+  const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
+  auto library = open_acting(arguments);
+  if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_questionnaires); !by)
+    return refuse(by.error());
+  const auto made = casedb::simulate_answers(*library, arguments.positional(0), seed);
+  if (!made) return refuse(made.error());
+  if (arguments.has("--json"))
+    std::fputs(json_of_simulated(*made).c_str(), stdout);
+  else
+    std::printf("SIMULATED: %zu sets of answers sent; %zu were there already\n", made->sent, made->there);
+  return kDone;
+}
+
+constexpr Option kAnswersOptions[] = {
+    kLibrary, {"--seed", "N", "of the raters: their severity, halo, drift and errors; default 1"}, kJson};
+
+}  // namespace
+
+Command simulate_answers_command() {
+  return {.name = "simulate answers",
+          .positionals = "CODE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kAnswersOptions,
+          .acts = true,
+          .summary = "Lets simulated people of a study answer its questionnaire, or simulated raters rate replays.",
+          .run = &run_simulate_answers};
+}
+
+}  // namespace seldinger::app
