@@ -105,6 +105,10 @@ base::Result<void> check_burned_in(const CaseRow& row) {
 }
 
 constexpr const char* kNewestSightLaw = "'echo'";
+constexpr const char* kNewestBreathLaw = "'drifting_holds'";
+// A quiet breath is 12 mm downwards; what cases of before call one is 16.
+constexpr const char* kDepthByNewestBreathLaw =
+    "breath_depth * CASE breath_law WHEN 'equal_holds' THEN 16.0 / 12.0 ELSE 1.0 END";
 
 enum class Copy { next_version, duplicate };
 
@@ -120,10 +124,9 @@ struct CopyData {
 void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id, Copy copy_as,
                const CopyData* other) {
   using Column = std::pair<std::string, std::string>;
-  std::vector<Column> own = {{"case_id", ":case_id"},
-                             {"state", "'draft'"},
-                             {"audience", "'everyone'"},
-                             {"sight_law", kNewestSightLaw},
+  std::vector<Column> own = {{"case_id", ":case_id"},          {"state", "'draft'"},
+                             {"audience", "'everyone'"},       {"sight_law", kNewestSightLaw},
+                             {"breath_law", kNewestBreathLaw}, {"breath_depth", kDepthByNewestBreathLaw},
                              {"created_us", ":created_us"}};
   const bool duplicates = copy_as == Copy::duplicate;
   if (duplicates)
