@@ -25,19 +25,22 @@ struct Clinic {
   bool defer = false;                           // the right decision
 };
 
+// By which law a patient breathes (docs/decisions/0084): a case's for good.
+enum class BreathLaw {
+  equal_holds,    // a depth of 1 is from CT to CT, and each hold is as still as the last
+  drifting_holds  // a depth of 1 is a quiet breath; holds differ and drift
+};
+inline constexpr auto kBreathLawNames = base::names<BreathLaw>(
+    {{BreathLaw::equal_holds, "equal_holds"}, {BreathLaw::drifting_holds, "drifting_holds"}});
+
 // What of the patient moves. None of it: as still as the CT.
 struct Motion {
-  double breath_depth = 0.0;  // a share of a quiet breath of the liver (cases::Breathing); 0: none
+  double breath_depth = 0.0;  // in breaths of its law; 0: none
   double breath_period_s = 4.0, breath_irregularity = 0.1;
-  bool yields = false;  // tissue, to probe and needle
-  std::optional<cases::Breathing> breathing() const {
-    if (!(breath_depth > 0.0)) return std::nullopt;
-    cases::Breathing made;
-    made.amplitude_mm *= breath_depth;
-    made.period_s = breath_period_s;
-    made.irregularity = breath_irregularity;
-    return made;
-  }
+  BreathLaw breath_law = BreathLaw::drifting_holds;         // of a version made before it: equal_holds
+  cases::CtBreath ct_breath = cases::CtBreath::expiration;  // and in which breath is held
+  bool yields = false;                                      // tissue, to probe and needle
+  std::optional<cases::Breathing> breathing() const;
 };
 
 struct CaseSetting {

@@ -142,6 +142,22 @@ void read_row(const Statement& from, const SettingRow& row, CaseSetting& setting
 
 }  // namespace
 
+std::optional<cases::Breathing> Motion::breathing() const {
+  if (!(breath_depth > 0.0)) return std::nullopt;
+  const bool drifts = breath_law == BreathLaw::drifting_holds;
+  cases::Breathing made;
+  made.amplitude_mm = breath_depth * (drifts ? cases::breath::kQuietMm : cases::breath::kBetweenCtMm);
+  made.period_s = breath_period_s;
+  made.irregularity = breath_irregularity;
+  // Who plans on a CT asks for the breath in which it was taken.
+  made.ct_level = made.hold_level = ct_breath == cases::CtBreath::inspiration ? 1.0 : 0.0;
+  if (drifts) {
+    made.hold_spread = cases::breath::kHoldSpreadMm / made.amplitude_mm.z;
+    made.hold_drift_per_s = cases::breath::kHoldDriftMmPerS / made.amplitude_mm.z;
+  }
+  return made;
+}
+
 std::string name_of(cases::InstrumentKind kind) {
   return std::string(base::name_of(cases::kInstrumentKindNames, kind));
 }

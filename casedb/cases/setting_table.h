@@ -100,7 +100,7 @@ inline constexpr const char* kRadius = "the needle's radius is from 0.1 to 5 mm,
 inline constexpr const char* kThrow = "throw and notch are up to 60 mm, the dead tip up to 30";
 inline constexpr const char* kWords = "allergy and indication are one line of at most 200 bytes";
 inline constexpr const char* kBreath =
-    "a breath is up to twice as deep as a quiet one, 1 to 20 s long, and up to 0.4 irregular";
+    "a breath is up to three times as deep as a quiet one, 1 to 20 s long, and up to 0.4 irregular";
 
 }  // namespace setting_table
 
@@ -225,11 +225,12 @@ inline constexpr auto kSettingRows = [] {
        .page = {.words = "Right decision", .place = 6},
        .editor = {.words = "the right decision is to defer", .place = 15}},
       {.column = "breath_depth",
-       .field = number<motion, &Motion::breath_depth>(0.0, 2.0),
+       .field = number<motion, &Motion::breath_depth>(0.0, cases::breath::kDeepest),
        .json = "motion/breath_depth",
-       .option = {"--breath-depth", "SHARE", "of a quiet breath, 16 mm of liver; default 0: none is shown"},
+       .option = {"--breath-depth", "SHARE",
+                  "1 a quiet breath, 12 mm of liver, 3 a deep one; default 0: none is shown"},
        .unsound = kBreath,
-       .editor = {.words = "breath: share of a quiet one", .place = 17, .digits = 2, .step = 0.25}},
+       .editor = {.words = "breath: 1 quiet, 3 deep", .place = 17, .digits = 2, .step = 0.25}},
       {.column = "breath_period_s",
        .field = number<motion, &Motion::breath_period_s>(1.0, 20.0),
        .json = "motion/breath_period_s",
@@ -242,6 +243,15 @@ inline constexpr auto kSettingRows = [] {
        .option = {"--breath-irregularity", "SHARE", "standard deviation of its period and depth; default 0.1"},
        .unsound = kBreath,
        .editor = {.words = "breath: irregular by", .place = 19, .digits = 2, .step = 0.05}},
+      {.column = "ct_breath",
+       .field = choice<cases::kCtBreathNames, motion, &Motion::ct_breath>(),
+       .json = "motion/ct_breath",
+       .option = {"--ct-breath", base::kAlternatives<cases::kCtBreathNames>,
+                  "in which the CT was taken, and which is held when asked; default expiration"},
+       .editor = {.words = "CT taken in", .place = 20}},
+      {.column = "breath_law",
+       .field = choice<kBreathLawNames, motion, &Motion::breath_law>(),
+       .json = "motion/breath_law"},
       {.column = "tissue_yields",
        .field = yes_or_no<motion, &Motion::yields>("still", "yields", true),
        .json = "motion/tissue",

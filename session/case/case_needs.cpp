@@ -29,7 +29,7 @@ tissue::Displacement all_at_work(const cases::Case& scene, const engine::MovingT
         .entry_lps_mm = at, .direction = inward, .cut_mm = 40.0, .tip_n = 0.5, .tip_mm = 1.0, .shaft_mm = 0.5};
   }
   cases::State state;
-  state.breath.level = 1.0;
+  state.breath.level = scene.breathing ? 1.0 - scene.breathing->ct_level : 1.0;
   return moving.seen(state, hands);
 }
 

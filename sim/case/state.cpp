@@ -77,6 +77,10 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
     for (const double value : {breath.phase, breath.asked_s, breath.held, breath.cough_s, state.breath.level})
       add(value);
     add_integer(breath.breath << 2U | (breath.failed ? 1U : 0U) | (state.breath.hold_asked ? 2U : 0U));
+    if (breath.hold_off != 0.0) {  // who holds alike and still has the hash of before there was another way
+      add(breath.hold_off);
+      add_integer(breath.holds);
+    }
   }
   if (const ConsoleSetting& console = state.probe.console; !(console == ConsoleSetting{}))
     for (const double value : {console.depth_mm, console.focus_mm, console.frequency_mhz, console.slice_mm})

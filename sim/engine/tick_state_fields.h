@@ -25,7 +25,7 @@ SELDINGER_FIELDS(cases::SkinPassage, tip, depth, asked, triangle, inside, in_bod
 SELDINGER_FIELDS(cases::NeedleState, tip, direction, skin, inserted)
 SELDINGER_FIELDS(cases::ConsoleSetting, depth, focus, frequency, slice)
 SELDINGER_FIELDS(cases::ProbeState, origin, axial, lateral, frozen, console)
-SELDINGER_FIELDS(cases::BreathState, phase, breath, asked, failed, held, cough)
+SELDINGER_FIELDS(cases::BreathState, phase, breath, asked, failed, held, cough, holds, hold_off)
 SELDINGER_FIELDS(cases::PatientBreath, state, asked, moves, level)
 SELDINGER_FIELDS(cases::FireState, fired, t, tip, direction)
 SELDINGER_FIELDS(cases::CArm, lao, cranial, sid, isocentre)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/base/exact_math.h"
+#include "sim/base/hash.h"
 #include "sim/base/rng.h"
 
 namespace seldinger::tissue {
@@ -19,10 +20,18 @@ constexpr double kMostOff = 2.0;  // standard deviations
 constexpr double kLungBelowDome = 0.3;
 constexpr double kPelvisBelowDomeMm = 350.0, kApexAboveDomeMm = 200.0;  // of an adult (design)
 
+double drawn(std::uint64_t seed, std::uint64_t counter) {
+  return std::clamp(base::normal_at(seed, counter), -kMostOff, kMostOff);
+}
+
 // Of a breath: 1, give or take.
 double off(const BreathSettings& settings, std::uint64_t breath, std::uint64_t what) {
-  const double normal = base::normal_at(settings.seed, 2 * breath + what);
-  return 1.0 + settings.irregularity * std::clamp(normal, -kMostOff, kMostOff);
+  return 1.0 + settings.irregularity * drawn(settings.seed, 2 * breath + what);
+}
+
+// Holds draw from a stream of their own, so that breaths stay what they are.
+double hold_off(const BreathSettings& settings, std::uint64_t hold) {
+  return settings.hold_spread * drawn(base::hash_combine(settings.seed, std::uint64_t{0x686f6c64}), hold);
 }
 
 double eased(double t) {
@@ -54,7 +63,11 @@ double advance(const BreathSettings& settings, double dt_s, const BreathAsks& as
     state.asked_s = 0.0;
   }
   const double turn = dt_s / kHoldTurnS;
-  state.held = std::clamp(state.held + (state.asked_s > settings.hold_delay_s ? turn : -turn), 0.0, 1.0);
+  const bool holding = state.asked_s > settings.hold_delay_s;
+  // Whoever holds comes from breathing: a hold that was let go of is over before the next can begin.
+  if (holding && state.held == 0.0) state.hold_off = hold_off(settings, state.holds++);
+  if (holding) state.hold_off -= settings.hold_drift_per_s * dt_s;
+  state.held = std::clamp(state.held + (holding ? turn : -turn), 0.0, 1.0);
 
   if (state.held < 1.0) {
     state.phase += dt_s / (settings.period_s * off(settings, state.breath, 0));
@@ -66,7 +79,7 @@ double advance(const BreathSettings& settings, double dt_s, const BreathAsks& as
   const double wave = base::exact_sin(std::numbers::pi * state.phase);
   double level = off(settings, state.breath, 1);
   for (int i = 0; i < settings.sharpness; ++i) level *= wave * wave;
-  level += eased(state.held) * (settings.hold_level - level);
+  level += eased(state.held) * (settings.hold_level + state.hold_off - level);
   return level - settings.cough_level * cough(state.cough_s);
 }
 
@@ -75,7 +88,7 @@ bool holds(const BreathState& state) noexcept {
 }
 
 glm::dvec3 breath_amount_mm(const BreathSettings& settings, double level) noexcept {
-  return level * settings.amplitude_mm;
+  return (level - settings.ct_level) * settings.amplitude_mm;
 }
 
 std::optional<BreathRegion> breath_region(const cases::Case& scene) {

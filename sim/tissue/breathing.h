@@ -23,7 +23,7 @@ double advance(const BreathSettings& settings, double dt_s, const BreathAsks& as
 
 bool holds(const BreathState& state) noexcept;  // the patient holds still
 
-// mm: to the right, to the front, downwards.
+// From where the CT saw it, mm: to the right, to the front, downwards.
 glm::dvec3 breath_amount_mm(const BreathSettings& settings, double level) noexcept;
 
 // Where the trunk is, LPS: what of it moves how much is in shaders/shared/displacement_source.glsl.h.

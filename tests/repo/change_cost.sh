@@ -29,7 +29,7 @@ examples() {
   example 'command' 'case mesh' 4 '\bcase_mesh\b|\bcase mesh\b'
   example 'command, that acts' 'cohort list' 6 '\bcohort_list\b|\bcohort list\b'
   example 'route' '/cases/{case_id}/checks.json' - 'checks\.json|checks_json\b'
-  example 'setting, with its migration' breath_irregularity 5 'breath[_-]irregularity'
+  example 'setting, with its migration' breath_irregularity 7 'breath[_-]irregularity'
   example 'setting, with its migration' breath_depth - 'breath[_-]depth'
   example 'migration' '0010_motion' - '0010_motion|training_case_keeps_its_motion'
   example 'modality, in the product' xray - '\bModality::xray\b' ':!tests'

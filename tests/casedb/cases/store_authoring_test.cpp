@@ -7,6 +7,7 @@
 #include "casedb/cases/structure_json.h"
 #include "casedb/cases/versions.h"
 #include "casedb/database/audit.h"
+#include "casedb/database/migrate.h"
 #include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
 #include "tests/casedb/library_samples.h"
@@ -286,6 +287,55 @@ TEST_F(AuthoringTest, APhantomHasNothingOfAPatient) {
   const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
   static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
   refuse("UPDATE training_case SET subject = 'patient'");
+}
+
+// Schema 39 takes a library whose cases breathe by the law of before: those that are published or attempted move as
+// they did, bit for bit; a draft and a new version move as far down by the newest law.
+TEST_F(AuthoringTest, WhoBreathedBeforeTheNewestLawMovesAsBefore) {
+  add_users();
+  const std::string draft = add_case(library_, sample_case()), attempted = add_case(library_, sample_case()),
+                    published = add_case(library_, sample_case());
+  const std::string lesion_id = add_lesion(library_, attempted, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(attempted, lesion_id)).value());
+  for (const char* earlier :
+       {"DROP TRIGGER training_case_keeps_its_motion", "ALTER TABLE training_case DROP COLUMN breath_law",
+        "ALTER TABLE training_case DROP COLUMN ct_breath", "ALTER TABLE training_case DROP COLUMN breath_depth",
+        "ALTER TABLE training_case ADD COLUMN breath_depth REAL NOT NULL DEFAULT 0.3 CHECK (breath_depth BETWEEN 0 "
+        "AND 2)",
+        "CREATE TRIGGER training_case_keeps_its_motion BEFORE UPDATE OF breath_depth ON training_case WHEN "
+        "OLD.state "
+        "<> 'draft' BEGIN SELECT RAISE(ABORT, 'kept'); END"})
+    library_.database().run(earlier);
+  library_.database().run("UPDATE training_case SET state = 'published' WHERE case_id = '" + published + "'");
+  library_.database().run(std::string(library_schema().steps[38].content));
+
+  const auto breathing_of = [&](const std::string& case_id) {
+    return find_case(library_, case_id).value().motion.breathing().value();
+  };
+  for (const std::string& case_id : {published, attempted}) {
+    cases::Breathing before;  // what the program of then made of it
+    before.amplitude_mm = 0.3 * glm::dvec3(2.0, 15.0, 16.0);
+    EXPECT_EQ(breathing_of(case_id), before);
+  }
+  const std::string next = new_version(library_, published, "ann").value();
+  for (const std::string& case_id : {draft, next}) {
+    const cases::Breathing now = breathing_of(case_id);
+    EXPECT_NEAR(now.amplitude_mm.z, 0.3 * 16.0, 1e-12);
+    EXPECT_NEAR(now.amplitude_mm.y, 0.3 * 16.0 * 5.0 / 12.0, 1e-12);
+    EXPECT_NEAR(now.hold_spread * now.amplitude_mm.z, cases::breath::kHoldSpreadMm, 1e-12);
+    EXPECT_EQ(now.hold_level, 0.0);
+  }
+  // What follows by the newest law keeps its depth, and a CT that was taken in inspiration is where breath is held.
+  CaseSetting setting = find_case(library_, next).value();
+  setting.motion.breath_depth = cases::breath::kDeepest;
+  setting.motion.ct_breath = cases::CtBreath::inspiration;
+  ASSERT_TRUE(set_setting(library_, next, setting));
+  const cases::Breathing deep = breathing_of(new_version(library_, next, "ann").value());
+  EXPECT_EQ(deep.amplitude_mm, cases::breath::kDeepest * cases::breath::kQuietMm);
+  EXPECT_EQ(deep.ct_level, 1.0);
+  EXPECT_EQ(deep.hold_level, 1.0);
+  setting.motion.breath_depth = 3.1;
+  EXPECT_EQ(code(set_setting(library_, next, setting)), "bad_setting");
 }
 
 TEST_F(AuthoringTest, SettingsThatAreNotSoundAreRefused) {

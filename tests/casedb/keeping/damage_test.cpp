@@ -268,6 +268,12 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
         "DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes; DROP INDEX "
         "audit_of_everybodys_records");
     old.run("ALTER TABLE training_case DROP COLUMN sight_law");
+    for (const char* later :
+         {"DROP TRIGGER training_case_keeps_its_motion", "ALTER TABLE training_case DROP COLUMN breath_law",
+          "ALTER TABLE training_case DROP COLUMN ct_breath",
+          "CREATE TRIGGER training_case_keeps_its_motion BEFORE UPDATE OF breath_depth ON training_case "
+          "BEGIN SELECT 1; END"})
+      old.run(later);  // as schema 20 has one law of breath
     old.run("ALTER TABLE lesion DROP COLUMN lesion_kind");
     for (const char* later :
          {"DROP VIEW consenting", "DROP TRIGGER person_kind_is_immutable",

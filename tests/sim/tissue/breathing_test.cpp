@@ -102,6 +102,81 @@ TEST(Breathing, ACoughThrowsTheDiaphragmUpAndEndsAHold) {
   EXPECT_GT(*std::max_element(after.begin(), after.end()), 0.99) << "the hold is over, until it is asked for anew";
 }
 
+// Of an adult who breathes `depth` quiet breaths deep, by the numbers of cases.
+BreathSettings breathing_of(double depth) {
+  BreathSettings settings{.amplitude_mm = depth * cases::breath::kQuietMm};
+  settings.hold_spread = cases::breath::kHoldSpreadMm / settings.amplitude_mm.z;
+  settings.hold_drift_per_s = cases::breath::kHoldDriftMmPerS / settings.amplitude_mm.z;
+  return settings;
+}
+
+TEST(Breathing, HoldsDifferByAFewMmAndDriftUpwards) {
+  for (const double depth : {1.0, cases::breath::kDeepest}) {
+    const BreathSettings settings = breathing_of(depth);
+    const double mm = settings.amplitude_mm.z;
+    BreathState state, again;
+    std::vector<double> held_mm;
+    for (int hold = 0; hold < 150; ++hold) {
+      const std::vector<double> levels = breathe(settings, 7000, state, {.hold = true});
+      ASSERT_EQ(levels, breathe(settings, 7000, again, {.hold = true})) << "the same from the same seed";
+      ASSERT_LT(most_step(levels), 0.005) << "no jump into a hold";
+      ASSERT_TRUE(holds(state));
+      ASSERT_NEAR((levels[2500] - levels[6500]) * mm, 4.0 * cases::breath::kHoldDriftMmPerS, 1e-9);
+      held_mm.push_back(levels[2000] * mm);
+      const std::vector<double> after = breathe(settings, 3000, state);
+      ASSERT_EQ(after, breathe(settings, 3000, again));
+      ASSERT_LT(std::abs(after[0] - levels.back()), 0.005) << "no jump out of it";
+      ASSERT_LT(most_step(after), 0.005);
+    }
+    double mean = 0.0, squares = 0.0;
+    for (const double one : held_mm) mean += one / 150.0;
+    for (const double one : held_mm) squares += (one - mean) * (one - mean) / 150.0;
+    EXPECT_NEAR(mean, -0.5 * cases::breath::kHoldDriftMmPerS, 0.6);
+    EXPECT_NEAR(std::sqrt(squares), 0.88 * cases::breath::kHoldSpreadMm, 0.4) << "cut off at two deviations";
+    EXPECT_NE(held_mm[0], held_mm[1]);
+  }
+}
+
+TEST(Breathing, OfCasesOfBeforeIsHeldAlikeAndStill) {
+  const BreathSettings settings;
+  BreathState state;
+  for (int hold = 0; hold < 3; ++hold) {
+    const std::vector<double> levels = breathe(settings, 7000, state, {.hold = true});
+    for (int i = 2100; i < 7000; ++i) ASSERT_EQ(levels[static_cast<std::size_t>(i)], 0.0) << i;
+    breathe(settings, 3000, state);
+    EXPECT_EQ(state.hold_off, 0.0);
+  }
+}
+
+// Quiet: downwards 10 to 20, to the front 2 to 8. Deep: downwards 37 ± 8 (Davies 1994), to the front 9 to 21 (de
+// Jong 2019). Whether the CT saw them breathed out or in, the way is the same, and nothing folds.
+TEST(BreathRegion, ExcursionsOfQuietAndDeepBreathsAreAsPublished) {
+  const BreathRegion region;
+  for (const bool deep : {false, true})
+    for (const double ct_level : {0.0, 1.0}) {
+      BreathSettings settings = breathing_of(deep ? cases::breath::kDeepest : 1.0);
+      settings.ct_level = ct_level;
+      const auto at = [&](double level) {
+        return displacement_of({.breath = Breath{region, breath_amount_mm(settings, level)}});
+      };
+      const Displacement out = at(0.0), in = at(1.0);
+      for (const glm::dvec3& place : {glm::dvec3(-60, -10, -60), {62, 45, -115}, {0, -110, 0}})
+        EXPECT_EQ(displaced(at(ct_level), place), place) << "there the CT saw it";
+      const double down_mm = displaced(out, {0, -60, 0}).z - displaced(in, {0, -60, 0}).z;
+      const double front_mm = displaced(out, {0, -110, 0}).y - displaced(in, {0, -110, 0}).y;
+      EXPECT_GE(down_mm, deep ? 29.0 : 10.0);
+      EXPECT_LE(down_mm, deep ? 45.0 : 20.0);
+      EXPECT_GE(front_mm, deep ? 9.0 : 2.0);
+      EXPECT_LE(front_mm, deep ? 21.0 : 8.0);
+      const Displacement far = at(1.0 - ct_level);
+      double least = 1.0;
+      for (double x = -170.0; x <= 170.0; x += 10.0)
+        for (double y = -110.0; y <= 110.0; y += 10.0)
+          for (double z = -360.0; z <= 220.0; z += 10.0) least = std::min(least, volume_ratio(far, {x, y, z}));
+      EXPECT_GT(least, 0.5) << deep << ct_level;
+    }
+}
+
 TEST(BreathRegion, MovesOrgansAsPublishedAndLeavesSpineAndWall) {
   const BreathSettings settings;
   const BreathRegion region;  // dome at z 0, back at y 110, front at −110
