@@ -810,6 +810,8 @@ CREATE INDEX enrolment_by_person ON enrolment (person_id);
 
 CREATE INDEX lesion_by_case ON lesion (case_id);
 
+CREATE INDEX metric_value_hit ON metric_value (attempt_id, version, value) WHERE metric_id = 'hit';
+
 CREATE INDEX password_link_of_person ON password_link (person_id);
 
 CREATE UNIQUE INDEX questionnaire_by_form ON questionnaire (form_id, version, language);

@@ -99,12 +99,14 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   for (const casedb::LesionRow& lesion : parts.lesions) add_fact(html, "Lesion", lesion_text(lesion));
   end_table(html);
 
-  add_table(html, "Structures");
-  for (const casedb::StructureRow& one : parts.structures)
-    add_fact(html, one.name,
-             words(std::string(cases::name_of(one.rule))) + ", " + words(volume::about(one.tissue).name) + ", " +
-                 casedb::name_of(one.kind));
-  end_table(html);
+  if (!parts.structures.empty()) {
+    add_table(html, "Structures");
+    for (const casedb::StructureRow& one : parts.structures)
+      add_fact(html, one.name,
+               words(std::string(cases::name_of(one.rule))) + ", " + words(volume::about(one.tissue).name) + ", " +
+                   casedb::name_of(one.kind));
+    end_table(html);
+  }
 
   add_table(html, "To pass");
   for (const assessment::Criterion& one : row.rule.criteria)

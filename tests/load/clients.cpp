@@ -341,8 +341,8 @@ void serve_fifty(int attempts, std::chrono::seconds time) {
     const double p50 = share_of(ms, 0.5), p95 = share_of(ms, 0.95);
     std::printf("%-58s %7zu %8.1f %8.1f %8.1f\n", route.c_str(), ms.size(), p50, p95, ms.back());
   }
-  std::printf("%-58s %7zu %8.1f %8.1f %8.1f\n", "all", requests, share_of(every, 0.5), share_of(every, 0.95),
-              every.back());
+  const double p50 = share_of(every, 0.5), p95 = share_of(every, 0.95);
+  std::printf("%-58s %7zu %8.1f %8.1f %8.1f\n", "all", requests, p50, p95, every.back());
   EXPECT_TRUE(waits.wrong.empty()) << waits.wrong.size()
                                    << " answers were wrong, the first: " << waits.wrong.front();
   const auto of_a_role = [](const web::Route& route) {

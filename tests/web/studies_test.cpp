@@ -6,6 +6,7 @@
 namespace seldinger::web {
 namespace {
 
+using namespace std::string_literals;
 using casedb::Role;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -68,6 +69,17 @@ TEST_F(Studies, AFrozenOneTellsWhoIsInByPseudonymAndWhoHasLooked) {
     EXPECT_THAT(page, Not(HasSubstr(hidden)));
   EXPECT_THAT(browser.get("/studies").body, HasSubstr("3 consent, 1 enrolled"));
   EXPECT_THAT(browser.get("/").body, HasSubstr("/studies/" + kStudy)) << "where a researcher lands";
+}
+
+TEST_F(Studies, OneOfSimulatedPeopleSaysSoWhereverItIsNamed) {
+  for (const auto people : {assessment::study::People::real, assessment::study::People::simulated}) {
+    fake.questions.studies[0].plan = stored_plan(true);
+    fake.questions.studies[0].plan->plan.people = people;
+    for (const std::string& path : {"/studies"s, "/studies/" + kStudy, "/"s})
+      EXPECT_EQ(browser.get(path).body.find("<span class=\"mark\">simulated</span>") != std::string::npos,
+                people == assessment::study::People::simulated)
+          << path;
+  }
 }
 
 // Both are jobs (jobs_test.cpp), and of a plan that is not frozen nobody gets outcomes by person.

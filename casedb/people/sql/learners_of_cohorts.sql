@@ -2,7 +2,7 @@
 -- they made themselves, of those how many have a known newest value of hit, and how many hit.
 WITH done AS (
   SELECT person_id, attempt_id, started_us, (
-    SELECT value FROM metric_value
+    SELECT value FROM metric_value INDEXED BY metric_value_hit
     WHERE metric_value.attempt_id = attempt.attempt_id AND metric_id = 'hit'
     ORDER BY version DESC LIMIT 1) AS hit
   FROM attempt WHERE operator_name = 'person' AND person_id IS NOT NULL

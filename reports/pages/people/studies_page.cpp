@@ -27,6 +27,12 @@ std::string people_text(const StudyView& view) {
   return consenting + ", " + std::to_string(view.enrolments.size()) + " enrolled";
 }
 
+// Wherever such a study is named.
+void add_simulated(Html& html, const StudyView& view) {
+  if (view.plan && view.plan->plan.people == study::People::simulated)
+    html.raw(" <span class=\"mark\">simulated</span>");
+}
+
 Html study_list(const std::vector<StudyView>& studies) {
   Html html;
   if (studies.empty())
@@ -39,7 +45,9 @@ Html study_list(const std::vector<StudyView>& studies) {
       "class=\"number\">Looks</th></tr></thead>\n<tbody>\n");
   for (const StudyView& one : studies) {
     html.raw("<tr><th scope=\"row\"><a href=\"/studies/").text(one.study.study_id).raw("\">").name(one.study.title);
-    html.raw("</a></th><td data-label=\"Plan\">").text(state_of_plan(one)).raw("</td><td data-label=\"People\">");
+    html.raw("</a>");
+    add_simulated(html, one);
+    html.raw("</th><td data-label=\"Plan\">").text(state_of_plan(one)).raw("</td><td data-label=\"People\">");
     html.text(people_text(one)).raw("</td><td class=\"number\" data-label=\"Looks\">");
     html.text(std::to_string(one.looks.size())).raw("</td></tr>\n");
   }
@@ -224,6 +232,7 @@ std::string researcher_start_page(const Visitor& visitor, const std::vector<Stud
 std::string study_page(const Visitor& visitor, const StudyView& view) {
   Html html;
   html.raw("<p class=\"back\"><a href=\"/studies\">All studies</a></p>\n<h1>").name(view.study.title);
+  add_simulated(html, view);
   html.raw("</h1>\n<p class=\"sub\">").text(state_of_plan(view)).raw(" · ").text(people_text(view)).raw("</p>\n");
   if (!view.plan) {
     html.raw(
