@@ -45,10 +45,11 @@ int run_case_explain(const Arguments& arguments) {
     return kDone;
   }
   std::fputs(tissue_text(tissue).c_str(), stdout);
-  std::printf("pictures show    by the law %s: %s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
-              row->sight_law == cases::SightLaw::scatter
-                  ? "X-rays with what the patient scatters, so that a closed field is clearer"
-                  : "X-rays without what the patient scatters");
+  std::printf("law of sight     %s%s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
+              row->modality != cases::Modality::xray ? ""
+              : row->sight_law == cases::SightLaw::scatter
+                  ? ": pictures include what the patient scatters; a narrower field is clearer"
+                  : ": pictures leave out what the patient scatters");
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
   if (needs.displacement_bytes == 0) {
     std::puts("moving tissue    none: no source, nothing is asked");

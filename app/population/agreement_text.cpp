@@ -132,10 +132,11 @@ std::string text_of_agreement(const SurrogateAgreement& agreement) {
   for (const LevelAgreement& one : agreement.levels) add_worst(one, text);
   for (const GroupsAgreement& one : agreement.effects) add_effects(one, text);
   const Verdict verdict = verdict_of(agreement);
-  add_line(text,
-           "\nOf %zu comparisons chance takes the furthest %.1f standard errors beyond its bound in one check of "
-           "twenty (Bonferroni); here it is %.1f: ",
-           verdict.comparisons, verdict.allowed_errors, verdict.furthest_errors);
+  add_line(
+      text,
+      "\nIn one check of twenty, chance alone takes the furthest of %zu comparisons %.1f standard errors or more "
+      "beyond its bound (Bonferroni); here it is %.1f: ",
+      verdict.comparisons, verdict.allowed_errors, verdict.furthest_errors);
   text += verdict.within_chance() ? "within chance.\n" : "the surrogate is off.\n";
   return text;
 }

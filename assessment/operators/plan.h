@@ -32,7 +32,8 @@ struct PuncturePlan {
   double tip_shows_from_mm = 0.0;
   // From this insertion on the way is inside the organ that carries the target, as the CT showed; 0: no organ.
   double organ_from_mm = 0.0;
-  Brief brief{};  // what the sign-in tells
+  Brief brief{};          // what the sign-in tells
+  double ct_level = 0.0;  // of breath, at which the CT was taken: tissue then lies as planned
 };
 
 // What a picture would show of a plan from where its probe touches the skin.

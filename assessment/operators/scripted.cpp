@@ -132,11 +132,11 @@ void ScriptedOperator::redirect() {
   enter(Phase::withdraw);
 }
 
-// Whether the patient's belly is still, seen with the usual delay; and whether it pauses between two breaths, which
-// the rhythm tells in time.
+// Whether the patient's belly is still, seen with the usual delay; and whether it is as it was in the CT (between
+// two breaths, where that was taken in expiration), which the rhythm tells in time.
 void ScriptedOperator::watch_breath(const cases::PatientBreath& breath) {
   breathes_ = breath.moves;
-  pauses_ = !breath.moves || std::abs(breath.level) < kPauseLevel;
+  pauses_ = !breath.moves || std::abs(breath.level - plan_.ct_level) < kPauseLevel;
   const bool still = breath.moves && breath.state.held >= 1.0 && breath.state.cough_s == 0.0;
   if (still != still_) still_changed_s_ = t_s_;
   still_ = still;

@@ -107,7 +107,7 @@ base::Result<void> check_burned_in(const CaseRow& row) {
 constexpr const char* kNewestBreathLaw = "'drifting_holds'";
 // A quiet breath is 12 mm downwards; what cases of before call one is 16.
 constexpr const char* kDepthByNewestBreathLaw =
-    "breath_depth * CASE breath_law WHEN 'equal_holds' THEN 16.0 / 12.0 ELSE 1.0 END";
+    "min(3.0, breath_depth * CASE breath_law WHEN 'equal_holds' THEN 16.0 / 12.0 ELSE 1.0 END)";
 
 enum class Copy { next_version, duplicate };
 
@@ -247,7 +247,10 @@ base::Result<void> try_to_judge(Library& library, const std::string& case_id, co
   const bool own = submitted != nullptr && submitted->person_id == wanted->by.person_id;
   if (const auto allowed = allow(wanted->by.role, action, Subject::whose(own)); !allowed) return allowed.error();
   decide(library, *wanted, approve ? DecisionKind::approved : DecisionKind::returned, note);
-  if (!approve) set_state(library, *wanted, CaseState::draft, false);
+  if (!approve) {
+    set_state(library, *wanted, CaseState::draft, false);
+    question(library.database(), "take_newest_breath_law").bind("case_id", case_id).run();
+  }
   transaction.commit();
   return {};
 }

@@ -68,6 +68,7 @@ constexpr ActRow kActRows[] = {
     {Act::open_round, "open_round", "opens a questionnaire to be answered"},
     {Act::close_round, "close_round", "closes a round of a questionnaire"},
     {Act::import_responses, "import_responses", "takes in answers from paper"},
+    {Act::simulate_answers, "simulate_answers", "lets simulated people answer"},
     {Act::export_responses, "export_responses", "exports answers to a questionnaire"},
     {Act::open_workshop, "open_workshop", "opens a workshop's day"},
     {Act::close_workshop, "close_workshop", "closes a workshop's day"},

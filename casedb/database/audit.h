@@ -71,6 +71,7 @@ enum class Act {
   open_round,
   close_round,
   import_responses,
+  simulate_answers,
   export_responses,
   open_workshop,
   close_workshop,

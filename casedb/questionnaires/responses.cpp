@@ -40,6 +40,12 @@ bool is_full(Library& library, const Round& round) {
   return row.integer("begun") >= static_cast<std::int64_t>(kMostBegunOnPages);
 }
 
+bool simulated_answer(Library& library, const Round& round) {
+  Statement row = question(library.database(), "sets_begun_in_round");
+  CHECK(row.bind("round_id", round.round_id).step());
+  return row.integer("simulated") > 0;
+}
+
 const StoredForm& in_language(const std::vector<StoredForm>& forms, const std::string& language) {
   const auto found = std::find_if(forms.begin(), forms.end(),
                                   [&](const StoredForm& one) { return one.form.language == language; });
@@ -67,6 +73,9 @@ base::Result<Round> open_round_of(Library& library, const std::string& code) {
     return base::Error{"desk_round", "this questionnaire is answered at the workstation, after an attempt"};
   if (round && !round->is_open())
     return base::Error{"round_closed", "the round is closed: nobody answers any more"};
+  if (round && simulated_answer(library, *round))
+    return base::Error{"round_in_use",
+                       "simulated people have answered in this round: people have one of their own"};
   return round;
 }
 

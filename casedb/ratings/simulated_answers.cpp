@@ -8,6 +8,7 @@
 
 #include "assessment/population/raters.h"
 #include "casedb/attempts/attempts.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/people/simulated_people.h"
@@ -73,6 +74,9 @@ population::Abilities ability_in(Library& library, const population::Person& per
 }
 
 base::Result<SimulatedAnswers> answer(Library& library, const Round& round) {
+  Statement sets = question(library.database(), "sets_begun_in_round");
+  CHECK(sets.bind("round_id", round.round_id).step());
+  if (sets.integer("of_people") > 0) return base::Error{"round_in_use", "people answer in this round"};
   std::vector<std::pair<std::string, std::string>> people;  // and their groups
   Statement rows = question(library.database(), "simulated_in_study");
   for (rows.bind("study_id", round.study_id); rows.step();)
@@ -137,7 +141,10 @@ base::Result<SimulatedAnswers> simulate_answers(Library& library, const std::str
   if (!round) return round.error();
   if (!round->is_open()) return base::Error{"round_closed", "the round is closed: nobody answers any more"};
   auto made = round->rated ? rate(library, *round, seed) : answer(library, *round);
-  if (made) transaction.commit();
+  if (!made) return made.error();
+  if (made->sent + made->there == 0) return nobody_simulated("no replay of the round is a simulated person's");
+  audit(library, Act::simulate_answers, {"round", round->round_id});
+  transaction.commit();
   return made;
 }
 

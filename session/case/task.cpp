@@ -44,6 +44,7 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   if (plan->picture) scene->picture = *plan->picture;
   tell(1.0);
   plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl, row->subject};
+  if (scene->breathing) plan->ct_level = scene->breathing->ct_level;
   return Task{*row, *found, std::move(*scene), *plan};
 }
 

@@ -89,15 +89,18 @@ SHARED real us_turned_rad(real n_less_1, real off_radii) {
 }
 // How far the rays of a beam of this width part, a share of the width for each mm behind the body (negative: they
 // meet); 0: of no round body. The ball is told by where the beam leaves it: chord and cosine of the angle to the
-// normal. Smaller ones are narrower than a beam, or single voxels of noise.
+// normal. Smaller ones are narrower than a beam, or single voxels of noise. What is left within 30° of squarely may be
+// a layer, whose two sides turn no ray; a ball hardly turns one there.
 SHARED_CONSTANT real kUsLeastRoundMm = 3.0, kUsLeastChordMm = 2.0;
+SHARED_CONSTANT real kUsLayerSine = 0.5, kUsRoundSine = 0.7;
 SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_mm, real cosine, real width_mm) {
   real radius_mm = real(0.5) * chord_mm / max(cosine, real(1e-3));
   real n_less_1 = (real(1.0) + shift_inside) / (real(1.0) + shift_outside) - real(1.0);
   real off = sqrt(max(real(1.0) - cosine * cosine, real(0.0)));
   real side = real(0.5) * width_mm / radius_mm;
   bool is_round = chord_mm >= kUsLeastChordMm && radius_mm >= kUsLeastRoundMm;
-  return is_round ? (us_turned_rad(n_less_1, off - side) - us_turned_rad(n_less_1, off + side)) / width_mm
+  real at_edge = clamp((off - kUsLayerSine) / (kUsRoundSine - kUsLayerSine), real(0.0), real(1.0));
+  return is_round ? at_edge * (us_turned_rad(n_less_1, off - side) - us_turned_rad(n_less_1, off + side)) / width_mm
                   : real(0.0);
 }
 // Share of the two-way amplitude that is left behind it: power falls as rays part, and an echo comes back the same

@@ -129,7 +129,8 @@ TEST_F(MotionTest, ExplainListsWhatCanMoveTheTissueAndNothingElse) {
 }
 
 TEST_F(MotionTest, ExpertsHitInAHeldBreathAndNovicesMostlyDoNotHoldIt) {
-  for (const std::string words : {"--breath-depth 1", "--breath-depth 1.5 --tissue yields"}) {
+  for (const std::string words :
+       {"--breath-depth 1", "--breath-depth 1.5 --tissue yields", "--breath-depth 1 --ct-breath inspiration"}) {
     const std::string case_id = version(words);
     for (const bool expert : {true, false}) {
       const Json made = ask("simulate --seed 1 --count 10 --no-pictures --case " + case_id + " --operator " +

@@ -131,7 +131,7 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   fact("Guidance", modality_words(row.modality));
   if (row.modality != cases::Modality::xray) fact("Approach", reports::approach_text(row.approach));
   if (row.modality == cases::Modality::xray && row.sight_law == cases::SightLaw::scatter)
-    fact("Field", "what the patient scatters veils the picture; a closed collimator clears it");
+    fact("Field", "scatter from the patient veils the picture; narrowing the collimator makes it clearer");
   fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
   const bool phantom = row.subject == cases::Subject::phantom;
   if (phantom)

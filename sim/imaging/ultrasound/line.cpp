@@ -6,6 +6,7 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/mirror.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
@@ -130,7 +131,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   const NeedleLine needle = needle_line(beam);
   double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
   bool needle_above = false;
-  const bool edges = view_.sight_law == cases::SightLaw::echo;
+  const bool edges = shows_artefacts(view_);
   std::optional<std::size_t> entered;  // the sample behind the last interface that is heard
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);

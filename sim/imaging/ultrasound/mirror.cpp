@@ -89,7 +89,7 @@ glm::dvec4 line_through(std::span<const Point> points) {
 
 std::vector<UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at, const PictureMotion* motion,
                                  std::span<const float> depth_below_skin_mm) {
-  if (view.sight_law != cases::SightLaw::echo) return {};
+  if (!shows_artefacts(view) || view.range_error) return {};  // an envelope shifted lies elsewhere than its tissue
   const Fan fan = fan_of(view);
   std::vector<Met> met(static_cast<std::size_t>(view.beams));
   bool any = false;

@@ -12,8 +12,14 @@
 
 namespace seldinger::imaging {
 
-// One a beam; none at all where no beam meets any, or by the law half_slice, whose pictures stay as they were. The
-// surface is a straight line through where neighbouring beams meet it. `motion`: of tissue that moves; else null.
+// Shadows of edges and what lung mirrors, in cases of a law that nothing was published by before there were these
+// (docs/decisions/0081): by the earlier ones pictures stay as they were.
+inline bool shows_artefacts(const UltrasoundView& view) {
+  return view.sight_law >= cases::SightLaw::scatter;
+}
+
+// One a beam; none at all where no beam meets any, or the view shows no artefacts or has a range error. The surface
+// is a straight line through where neighbouring beams meet it. `motion`: of tissue that moves; else null.
 std::vector<shaders::UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at,
                                           const PictureMotion* motion, std::span<const float> depth_below_skin_mm);
 

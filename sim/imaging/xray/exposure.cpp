@@ -160,9 +160,11 @@ double scatter_share(Beams& beams, const Pulse& pulse, const PathLengths& field)
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < kSteps; ++i) {
     count += pixels[i];
+    // The patient's middle lies at the isocentre: the panel is never within the patient.
+    const double water = kStepMm * static_cast<double>(i);
+    const double gap_mm = std::max(pulse.sid_mm - f.source_isocentre_mm, 0.5 * water);
     sum += pixels[i] * exact_exp(static_cast<double>(log_shares[i])) *
-           scatter_to_primary(
-               {kStepMm * static_cast<double>(i), field_mm, pulse.sid_mm - f.source_isocentre_mm, true});
+           scatter_to_primary({water, field_mm, gap_mm, true});
   }
   return sum / count;
 }

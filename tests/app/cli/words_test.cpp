@@ -73,9 +73,10 @@ TEST(Arguments, WhatIsCalledBecomesItsId) {
   EXPECT_EQ(arguments.positional(0), "01a2");
 }
 
+constexpr Option kCases[] = {{"--case", "CASE", "a case", true}};
+const Command kMany{.name = "many", .options = kCases, .summary = "", .run = nullptr};
+
 TEST(Arguments, EachValueOfAnOptionBecomesItsOwnId) {
-  constexpr Option kCases[] = {{"--case", "CASE", "a case", true}};
-  constexpr Command kMany{.name = "many", .options = kCases, .summary = "", .run = nullptr};
   const Arguments arguments(kMany, {"--case", "liver", "--case", "spleen"});
   const auto called = arguments.names("CASE");
   ASSERT_EQ(called.size(), 2U);

@@ -105,8 +105,17 @@ TEST_F(SimulatedAnswersTest, WhoIsEnrolledAnswersOnceAndAsPlanted) {
   const auto again = simulate_answers(library_, round.code, 1);
   EXPECT_EQ(again->sent, 0U);
   EXPECT_EQ(again->there, enrolled());
+  // People have a round of their own.
+  EXPECT_EQ(begin_response(library_, round.code, {.code = "", .group = "", .language = ""}).error().code,
+            "round_in_use");
+  const Round peoples = questionnaire_round(study_id_);
+  const auto begun = begin_response(library_, peoples.code, {.code = "", .group = "", .language = ""});
+  ASSERT_TRUE(begun.has_value()) << begun.error().code;
+  EXPECT_EQ(simulate_answers(library_, peoples.code, 1).error().code, "round_in_use");
+  // A draft, which may be changed but for this.
+  library_.database().run("UPDATE response_set SET simulated = 1 WHERE submitted_us IS NULL");
   EXPECT_TRUE(refused_by_constraint(
-      [&] { library_.database().run("UPDATE response_set SET simulated = 0, group_name = 'x'"); }));
+      [&] { library_.database().run("UPDATE response_set SET simulated = 0 WHERE submitted_us IS NULL"); }));
 }
 
 TEST_F(SimulatedAnswersTest, RatersSendWhatTheirSeveritySeesOfTheAbilityThen) {
