@@ -140,9 +140,8 @@ TEST(Window, Bench) {
     char goal_ms[32];
     std::snprintf(goal_ms, sizeof goal_ms, "%.0f", 15.0 + 1e3 / sorted[sorted.size() / 2]);
     char note[160];
-    std::snprintf(note, sizeof note,
-                  "1280 x 800; both hands' tools moving; quarters of a second; load %.1f to %.1f", load_before,
-                  load());
+    std::snprintf(note, sizeof note, "%s; both hands' tools moving; quarters of a second; load %.1f to %.1f",
+                  fixtures::Trainee::size_of(train_options).c_str(), load_before, load());
     table.row("window", "frames/s", frames, "15", note);
     table.row("ultrasound (" + method.substr(0, method.find(',')) + ")", "pictures/s", pictures,
               method.find("lattice") == 0 ? "12" : "5",
