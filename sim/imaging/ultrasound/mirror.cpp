@@ -25,17 +25,18 @@ constexpr double kLeastMirrorMm = 40.0;
 constexpr int kBesideBeams = 8, kLeastBeams = 7;
 constexpr double kMostJumpMm = 4.0;
 
-// Where a beam comes from tissue into lung, and the tissue's impedance.
+// Where a beam comes from tissue into lung, at what depth the picture shows that, and the tissue's impedance.
 struct Met {
-  double depth_mm = kNoLungMm;
+  double depth_mm = kNoLungMm, shown_mm = kNoLungMm;
   double mrayl = 0.0;
 };
 
-Met lung_on(const BeamPath& path, const TissueAt& tissue_at, double depth_mm) {
+Met lung_on(const BeamPath& path, const TissueAt& tissue_at, const UltrasoundView& view) {
   const AcousticTable& table = acoustic_table();
   Met met;
+  double shift_mm = 0.0;
   bool in_tissue = false;
-  for (double z_mm = 0.5 * kLookMm; z_mm < depth_mm; z_mm += kLookMm) {
+  for (double z_mm = 0.5 * kLookMm; z_mm < view.depth_mm; z_mm += kLookMm) {
     const TissueClass here = tissue_at(path.at(z_mm));
     const double mrayl = table[static_cast<std::size_t>(here)].impedance_mrayl;
     if (here == TissueClass::lung && in_tissue) {
@@ -45,11 +46,13 @@ Met lung_on(const BeamPath& path, const TissueAt& tissue_at, double depth_mm) {
         (tissue_at(path.at(middle)) == TissueClass::lung ? below : above) = middle;
       }
       met.depth_mm = 0.5 * (above + below);
+      met.shown_mm = met.depth_mm + (view.range_error ? shift_mm : 0.0);
       return met;
     }
     if (shaders::us_is_matched(mrayl)) {
       in_tissue = true;
       met.mrayl = mrayl;
+      shift_mm += kLookMm * shaders::us_shift_per_mm(1e-3 * table[static_cast<std::size_t>(here)].speed_m_s);
     } else if (in_tissue || z_mm > shaders::kUsGelMm) {
       return {};  // bone or gas lies before it
     }
@@ -89,19 +92,19 @@ glm::dvec4 line_through(std::span<const Point> points) {
 
 std::vector<UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at, const PictureMotion* motion,
                                  std::span<const float> depth_below_skin_mm) {
-  if (!shows_artefacts(view) || view.range_error) return {};  // an envelope shifted lies elsewhere than its tissue
+  if (!shows_artefacts(view)) return {};
   const Fan fan = fan_of(view);
   std::vector<Met> met(static_cast<std::size_t>(view.beams));
   bool any = false;
   for (int b = 0; b < view.beams; ++b) {
     Met& one = met[static_cast<std::size_t>(b)];
     // What a beam in air shows is mirrored nowhere.
-    one = beam_touches(view, depth_below_skin_mm, b) ? lung_on(path_of(fan, motion, b), tissue_at, view.depth_mm)
-                                                     : Met{0.0, 0.0};
+    one = beam_touches(view, depth_below_skin_mm, b) ? lung_on(path_of(fan, motion, b), tissue_at, view)
+                                                     : Met{0.0, 0.0, 0.0};
     any = any || is_mirror(one);
   }
   if (!any) return {};
-  const auto depth_of = [&](int b) { return met[static_cast<std::size_t>(b)].depth_mm; };
+  const auto depth_of = [&](int b) { return met[static_cast<std::size_t>(b)].shown_mm; };
   const auto goes_on = [&](int from, int to) { return std::abs(depth_of(from) - depth_of(to)) < kMostJumpMm; };
   std::vector<UsMirror> mirrors;
   std::vector<Point> points;

@@ -18,7 +18,7 @@ inline bool shows_artefacts(const UltrasoundView& view) {
   return view.sight_law >= cases::SightLaw::scatter;
 }
 
-// One a beam; none at all where no beam meets any, or the view shows no artefacts or has a range error. The surface
+// One a beam; none at all where no beam meets any, or the view shows no artefacts. The surface
 // is a straight line through where neighbouring beams meet it. `motion`: of tissue that moves; else null.
 std::vector<shaders::UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at,
                                           const PictureMotion* motion, std::span<const float> depth_below_skin_mm);

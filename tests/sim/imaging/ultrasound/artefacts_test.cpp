@@ -163,15 +163,40 @@ TEST(Artefacts, AreOfTheNewestLawAlone) {
   const Scene s = liver_on_lung();
   const TissueAt tissue_at(s.tissue(), {});
   const UltrasoundView view = curved_view(110.0);
-  UltrasoundView half_slice = view, echo = view, shifted = view;
+  UltrasoundView half_slice = view, echo = view;
   half_slice.sight_law = cases::SightLaw::half_slice;
   echo.sight_law = cases::SightLaw::echo;
-  shifted.range_error = true;
   EXPECT_NE(polar_of(s, view).envelope, polar_of(s, echo).envelope);
   EXPECT_EQ(polar_of(s, half_slice).envelope, polar_of(s, echo).envelope);
   EXPECT_FALSE(mirrors_of(view, tissue_at, nullptr, {}).empty());
   EXPECT_TRUE(mirrors_of(echo, tissue_at, nullptr, {}).empty());
-  EXPECT_TRUE(mirrors_of(shifted, tissue_at, nullptr, {}).empty());
+}
+
+// Sound is slower in fat, so that the console shows lung deeper than it lies: the mirror is where it is shown.
+TEST(LungMirror, LiesWhereThePictureShowsLung) {
+  constexpr double kFatMm = 25.0;
+  const Scene s = scene(
+      [](const glm::dvec3& p) {
+        if (p.y > kLungMm) return TissueClass::lung;
+        return p.y < kFatMm ? TissueClass::fat : TissueClass::liver;
+      },
+      {130, 140, 20}, 1.0);
+  const TissueAt tissue_at(s.tissue(), {});
+  const UltrasoundView view = straight_view(110.0);
+  UltrasoundView shifted = view;
+  shifted.range_error = true;
+  const auto lies = mirrors_of(view, tissue_at, nullptr, {}), seems = mirrors_of(shifted, tissue_at, nullptr, {});
+  ASSERT_EQ(lies.size(), static_cast<std::size_t>(view.beams));
+  ASSERT_EQ(seems.size(), lies.size());
+  const auto shift_mm = [](TissueClass tissue) {
+    return shaders::us_shift_per_mm(1e-3 * acoustic_table()[static_cast<std::size_t>(tissue)].speed_m_s);
+  };
+  const double expected_mm =
+      kFatMm * shift_mm(TissueClass::fat) + (kLungMm - kFatMm) * shift_mm(TissueClass::liver);
+  EXPECT_GT(expected_mm, 0.5);
+  const std::size_t middle = lies.size() / 2;
+  EXPECT_NEAR(seems[middle].met.x - lies[middle].met.x, expected_mm, 0.1);
+  EXPECT_NEAR(seems[middle].plane.y - lies[middle].plane.y, expected_mm, 0.1);
 }
 
 // Of one ray twice mirrored nothing is left to do: a mirror is its own way back.
