@@ -175,8 +175,10 @@ TEST_F(Exposure, WhatASlabScattersIsByItsLaw) {
     }
   EXPECT_EQ(scatter_share(beams, pulse, flat(64, 0.0)), 0.0);
   EXPECT_LT(scatter_share(beams, pulse, flat(64, 200.0, 20.0)), scatter_share(beams, pulse, flat(64, 200.0)));
-  pulse.sid_mm = machine.source_isocentre_mm;  // no gap that the law could speak of
-  EXPECT_EQ(scatter_share(beams, pulse, flat(64, 200.0)), 0.0);
+  pulse = {{75.0, 30.0, 8.0}, machine.source_isocentre_mm, 0, {}};  // the panel is not within the patient
+  EXPECT_NEAR(scatter_share(beams, pulse, flat(64, 200.0)) / (std::exp(beams.at(75.0).log_share(200.0, 0.0)) *
+                                                              scatter_to_primary({200.0, 300.0, 100.0, true})),
+              1.0, 0.005);
 }
 
 // The panel gets as much as ever, of which scatter is a part; a closed field has less of it and takes more current.
