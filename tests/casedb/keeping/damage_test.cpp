@@ -266,7 +266,7 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
     Sqlite old(folder_ / kDatabaseFile);
     old.run(
         "DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes; DROP INDEX "
-        "audit_of_everybodys_records");
+        "audit_of_everybodys_records; DROP INDEX metric_value_hit");
     old.run("ALTER TABLE training_case DROP COLUMN sight_law");
     for (const char* later :
          {"DROP TRIGGER training_case_keeps_its_motion", "ALTER TABLE training_case DROP COLUMN breath_law",
