@@ -34,16 +34,15 @@ bool has_respondent(Library& library, const std::string& round_id, const std::st
 }
 
 // Whoever has a code needs no account: what they can make the library hold is bounded.
-bool is_full(Library& library, const Round& round) {
+// `of`: a column of sets_begun_in_round.
+std::int64_t count_of_sets(Library& library, const Round& round, const char* of) {
   Statement row = question(library.database(), "sets_begun_in_round");
   CHECK(row.bind("round_id", round.round_id).step());
-  return row.integer("begun") >= static_cast<std::int64_t>(kMostBegunOnPages);
+  return row.integer(of);
 }
 
-bool simulated_answer(Library& library, const Round& round) {
-  Statement row = question(library.database(), "sets_begun_in_round");
-  CHECK(row.bind("round_id", round.round_id).step());
-  return row.integer("simulated") > 0;
+bool is_full(Library& library, const Round& round) {
+  return count_of_sets(library, round, "begun") >= static_cast<std::int64_t>(kMostBegunOnPages);
 }
 
 const StoredForm& in_language(const std::vector<StoredForm>& forms, const std::string& language) {
@@ -73,7 +72,7 @@ base::Result<Round> open_round_of(Library& library, const std::string& code) {
     return base::Error{"desk_round", "this questionnaire is answered at the workstation, after an attempt"};
   if (round && !round->is_open())
     return base::Error{"round_closed", "the round is closed: nobody answers any more"};
-  if (round && simulated_answer(library, *round))
+  if (round && count_of_sets(library, *round, "simulated") > 0)
     return base::Error{"round_in_use",
                        "simulated people have answered in this round: people have one of their own"};
   return round;
