@@ -221,7 +221,7 @@ SHARED real3 displacement_vein(DisplacementSource source, real3 p_mm) {
 }
 
 // Breathing. Where it moves how much is drawn, not computed: no source gives a field (design). What it must show:
-// most at the dome (de Jong 2019: liver 16 mm downwards, 15 to the front, 2 to the right), a kidney 0.6 to 0.7 as
+// most at the dome (how far: sim/case/breathing.h), a kidney 0.6 to 0.7 as
 // far (Song 2011), nothing from the apex and from the pelvis on. Organs leave the wall of the trunk, the spine and
 // the back where they are (all of that slides at pleura and peritoneum, here within the outer third); the front
 // rises. LPS: x to the left, y to the back, z upwards.

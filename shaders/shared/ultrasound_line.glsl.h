@@ -89,8 +89,8 @@ SHARED real us_turned_rad(real n_less_1, real off_radii) {
 }
 // How far the rays of a beam of this width part, a share of the width for each mm behind the body (negative: they
 // meet); 0: of no round body. The ball is told by where the beam leaves it: chord and cosine of the angle to the
-// normal. Smaller ones are narrower than a beam, or single voxels of noise. What is left within 30° of squarely may be
-// a layer, whose two sides turn no ray; a ball hardly turns one there.
+// normal. Smaller ones are narrower than a beam, or single voxels of noise. What is left within 30° of squarely may
+// be a layer, whose two sides turn no ray; a ball hardly turns one there.
 SHARED_CONSTANT real kUsLeastRoundMm = 3.0, kUsLeastChordMm = 2.0;
 SHARED_CONSTANT real kUsLayerSine = 0.5, kUsRoundSine = 0.7;
 SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_mm, real cosine, real width_mm) {

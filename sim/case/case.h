@@ -75,7 +75,7 @@ inline constexpr auto kModalityNames =
 enum class SightLaw {
   half_slice,  // the tip within half the slice's width at any tilt, a target of any size by its contrast
   echo,        // the tip by its echo alone, a target by contrast and size
-  scatter      // and under X-rays with what is scattered onto the panel (docs/decisions/0082)
+  scatter      // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
 };
 inline constexpr auto kSightLawNames = base::names<SightLaw>(
     {{SightLaw::half_slice, "half_slice"}, {SightLaw::echo, "echo"}, {SightLaw::scatter, "scatter"}});
