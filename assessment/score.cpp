@@ -5,6 +5,7 @@
 #include "assessment/registry.h"
 #include "assessment/signals/target_view.h"
 #include "sim/case/patient_position.h"
+#include "sim/imaging/ultrasound/view/probe.h"
 
 namespace seldinger::assessment {
 
@@ -15,6 +16,9 @@ base::Result<Signals> signals_of(const cases::Case& scene, const cases::Recordin
   setting.instrument = scene.instrument;
   setting.modality = scene.picture.modality;
   setting.approach = scene.approach;
+  if (scene.probe_is_chosen && setting.modality == cases::Modality::ultrasound)
+    if (const imaging::Probe* probe = imaging::probe_named(scene.picture.probe))
+      setting.probe_suits = DepthRange{probe->suits_from_mm, probe->suits_to_mm};
   setting.structures = scene.structures;
   if (scene.planned_entry_lps_mm && setting.target) {
     const glm::dvec3 way = setting.target->center_lps_mm - *scene.planned_entry_lps_mm;

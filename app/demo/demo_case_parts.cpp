@@ -86,6 +86,7 @@ DemoCase liver_between_ribs() {
   DemoCase made{2, "Graded 2: liver lesion 15 mm, intercostal", DemoSource::torso, {}, {}, {}};
   made.setting.modality = cases::Modality::ultrasound;
   made.setting.further_modalities = {cases::Modality::mpr};
+  made.setting.probe_is_chosen = true;
   made.setting.instrument = core_needle();
   made.setting.clinic = {1.1, 190.0, "", "lesion of the liver, to be told by biopsy", false};
   made.setting.rule = rule_of({"core_in_target >= 8", "capsule_punctures <= 1", "skin_punctures <= 1",
@@ -109,13 +110,13 @@ DemoCase kidney_cortex() {
 DemoCase jugular_vein() {
   DemoCase made{4, "Graded 4: right internal jugular vein", DemoSource::neck, {}, {}, {}};
   made.setting.modality = cases::Modality::ultrasound;
-  made.setting.further_modalities = {cases::Modality::mpr};
+  made.setting.probe_is_chosen = true;
   made.setting.approach = cases::Approach::out_of_plane;
   made.setting.instrument = access_needle(18);
   made.setting.clinic = {1.2, 150.0, "", "central venous access", false};
-  made.setting.rule =
-      rule_of({"hit >= 1", "back_wall_dist >= 2", "longest_advance_between_sights <= 8", "skin_punctures <= 1"},
-              {"nogo_length_critical <= 0", "posterior_wall <= 0"});
+  made.setting.rule = rule_of({"hit >= 1", "back_wall_dist >= 2", "longest_advance_between_sights <= 8",
+                               "skin_punctures <= 1", "probe_suits >= 1"},
+                              {"nogo_length_critical <= 0", "posterior_wall <= 0"});
   return made;
 }
 
@@ -123,6 +124,7 @@ DemoCase beside_a_vein() {
   DemoCase made{7, "Graded 7: liver lesion 10 mm beside a hepatic vein", DemoSource::torso, {}, {}, {}};
   made.setting.modality = cases::Modality::ultrasound;
   made.setting.further_modalities = {cases::Modality::mpr};
+  made.setting.probe_is_chosen = true;
   made.setting.instrument = core_needle();
   made.setting.difficulty = casedb::Difficulty::hard;
   made.setting.clinic = {1.1, 190.0, "", "lesion of the liver, to be told by biopsy", false};

@@ -76,6 +76,7 @@ DemoCase torso_liver() {
   DemoCase made{1, "Graded 1: liver lesion 25 mm, subcostal", DemoSource::torso, {}, {}, {}};
   made.setting.modality = cases::Modality::ultrasound;
   made.setting.further_modalities = {cases::Modality::mpr};
+  made.setting.probe_is_chosen = true;
   made.setting.instrument = core_needle();
   made.setting.difficulty = casedb::Difficulty::easy;
   made.setting.clinic = {1.0, 220.0, "", "lesion of the liver, to be told by biopsy", false};
@@ -100,6 +101,7 @@ DemoCase dilated_calyx() {
   DemoCase made{5, "Graded 5: dilated lower-pole calyx, ultrasound", DemoSource::torso_dilated, {}, {}, {}};
   made.setting.modality = cases::Modality::ultrasound;
   made.setting.further_modalities = {cases::Modality::mpr};
+  made.setting.probe_is_chosen = true;
   made.setting.position = cases::PatientPosition::prone;
   made.setting.instrument = access_needle(18);
   made.setting.clinic = {1.0, 230.0, "", "obstructed kidney, nephrostomy", false};

@@ -39,7 +39,8 @@ constexpr std::string_view kOnlyIfAsked[] = {"vis_shaft",
 
 // Said without judging where there is neither rule nor band.
 constexpr std::string_view kFacts[] = {
-    "hit", "tip_target_dist", "blind_advance", "advance_beyond_plane", "fluoroscopy_time", "time_total"};
+    "hit",        "tip_target_dist", "blind_advance", "advance_beyond_plane", "fluoroscopy_time",
+    "time_total", "probe_suits"};
 
 int severity_of(const MetricInfo& info) {
   return static_cast<int>(std::find(std::begin(kBySeverity), std::end(kBySeverity), info.group) -

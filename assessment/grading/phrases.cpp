@@ -112,6 +112,8 @@ constexpr Phrase kPhrases[] = {
      "Held the needle at most {} off the picture's plane", "Held the needle in the picture's plane"},
     {"advance_beyond_plane", "unseen advance", "Advanced {} beyond the picture's plane",
      "Advanced only {} beyond the picture's plane", "Never advanced beyond the picture's plane"},
+    {"probe_suits", "probe chosen", "Chose a probe that suits the target's depth",
+     "Chose a probe that suits the target's depth", "Chose a probe that does not suit the target's depth"},
     {"probe_drift_advancing", "probe", "Let the probe drift {} while advancing",
      "Let the probe drift only {} while advancing", "Held the probe still while advancing"},
     {"probe_shift_advancing", "probe", "Slid the probe over the skin by {} while advancing",

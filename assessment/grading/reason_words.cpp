@@ -49,6 +49,7 @@ constexpr ReasonWords kReasons[] = {
     {"nothing_done", "nothing was done that could be judged"},
     {"no_movement", "the tip did not move"},
     {"never_punctured", "the skin was never punctured"},
+    {"probe_given", "the case gave the probe"},
     {"nothing_decided", "nothing was decided: neither said nor punctured"},
     {"no_step_asked_for", "the case asks for none of the graded steps"},
     {"breath_never_held", "the breath was never held"},

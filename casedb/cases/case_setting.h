@@ -50,6 +50,7 @@ struct CaseSetting {
   cases::PatientPosition position = cases::PatientPosition::supine;
   cases::Instrument instrument;
   cases::Approach approach = cases::Approach::in_plane;
+  bool probe_is_chosen = false;  // ultrasound: by whoever attempts it; else the case takes the one that suits
   Clinic clinic;
   Motion motion;
   std::optional<glm::dvec3> planned_entry_lps_mm;

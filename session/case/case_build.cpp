@@ -59,6 +59,7 @@ class Voxels {
 void take_setting(const casedb::CaseSetting& setting, cases::Case& scene) {
   scene.instrument = setting.instrument;
   scene.approach = setting.approach;
+  scene.probe_is_chosen = setting.probe_is_chosen;
   scene.subject = setting.subject;
   scene.position = setting.position;
   scene.planned_entry_lps_mm = setting.planned_entry_lps_mm;

@@ -6,6 +6,8 @@
 #include "casedb/attempts/made_at.h"
 #include "session/case/case_build.h"
 #include "session/guidance/guidance.h"
+#include "session/guidance/ultrasound_sight.h"
+#include "sim/base/check.h"
 
 namespace seldinger::session {
 
@@ -46,6 +48,19 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl, row->subject};
   if (scene->breathing) plan->ct_level = scene->breathing->ct_level;
   return Task{*row, *found, std::move(*scene), *plan};
+}
+
+std::vector<std::string> probes_to_choose(const Task& task) {
+  std::vector<std::string> names;
+  if (task.scene.probe_is_chosen && task.scene.picture.modality == cases::Modality::ultrasound)
+    for (const imaging::Probe* probe : offered_probes()) names.emplace_back(probe->name);
+  return names;
+}
+
+void choose_probe(Task& task, std::string_view name) {
+  const std::vector<std::string> offered = probes_to_choose(task);
+  CHECK(std::find(offered.begin(), offered.end(), name) != offered.end());
+  task.scene.picture = by_probe(task.plan.picture.value_or(task.scene.picture), *imaging::probe_named(name));
 }
 
 casedb::AttemptHead head_of(const Task& task, const Program& program, std::string operator_name, std::uint64_t seed,

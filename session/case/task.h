@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "assessment/operators/plan.h"
 #include "casedb/attempts/attempts.h"
@@ -30,6 +32,11 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
                                 std::optional<cases::InstrumentKind> kind = std::nullopt,
                                 std::optional<cases::Modality> modality = std::nullopt,
                                 const std::function<void(double share)>& told = {});
+
+// What may be chosen where the case leaves the choice: none where it does not.
+std::vector<std::string> probes_to_choose(const Task& task);
+// From now on the task is looked at by that probe, one of these (CHECKed), at a depth that shows the target.
+void choose_probe(Task& task, std::string_view name);
 
 // Of an attempt at it that begins now, in this program.
 casedb::AttemptHead head_of(const Task& task, const Program& program, std::string operator_name, std::uint64_t seed,

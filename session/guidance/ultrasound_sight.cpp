@@ -78,8 +78,9 @@ std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::U
   return depths;
 }
 
-cases::Picture ultrasound_picture(double target_below_skin_mm) {
-  const imaging::Probe& probe = target_below_skin_mm <= kLinearToMm ? imaging::kL115v : imaging::kC52v;
+namespace {
+
+cases::Picture picture_by(const imaging::Probe& probe, double target_below_skin_mm) {
   cases::Picture picture;
   picture.modality = cases::Modality::ultrasound;
   picture.probe = std::string(probe.name);
@@ -88,6 +89,25 @@ cases::Picture ultrasound_picture(double target_below_skin_mm) {
   picture.width_mm = 0.0;
   picture.rate_hz = sound_rate_hz(picture.depth_mm);
   return picture;
+}
+
+}  // namespace
+
+cases::Picture ultrasound_picture(double target_below_skin_mm) {
+  return picture_by(target_below_skin_mm <= kLinearToMm ? imaging::kL115v : imaging::kC52v, target_below_skin_mm);
+}
+
+std::array<const imaging::Probe*, 2> offered_probes() noexcept {
+  return {&imaging::kC52v, &imaging::kL115v};
+}
+
+cases::Picture by_probe(const cases::Picture& picture, const imaging::Probe& probe) {
+  const imaging::Probe& now = probe_of(picture);
+  if (&now == &probe) return picture;
+  cases::Picture other = picture_by(probe, kTargetShare * picture.depth_mm + press_mm(now));
+  other.depth_mm = std::clamp(other.depth_mm, probe.least_depth_mm, probe.most_depth_mm);
+  other.rate_hz = sound_rate_hz(other.depth_mm);
+  return other;
 }
 
 imaging::UltrasoundView console_view(const cases::Picture& picture, const cases::ConsoleSetting& console) {

@@ -2,6 +2,7 @@
 // one place where attempts meet ultrasound imaging.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,6 +33,10 @@ std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::U
 // else by the curved one, at a depth of which the target lies at 1/2 to 2/3, as fast as sound allows up to the
 // screen's 60 Hz.
 cases::Picture ultrasound_picture(double target_below_skin_mm);
+// Those that are offered where a probe may be chosen: a curved and a linear one.
+std::array<const imaging::Probe*, 2> offered_probes() noexcept;
+// That picture by another probe, with the target at the same share of its depth.
+cases::Picture by_probe(const cases::Picture& picture, const imaging::Probe& probe);
 
 // How often an ultrasound machine makes a picture: as the case says, until a depth is asked for; then as sound
 // allows.

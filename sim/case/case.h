@@ -110,7 +110,8 @@ struct Case {
   std::optional<glm::dvec3> planned_entry_lps_mm{};  // on the skin
   // What moves its tissue; neither: it lies as still as the CT.
   std::optional<Breathing> breathing{};
-  bool yields = false;  // to probe and needle
+  bool yields = false;           // to probe and needle
+  bool probe_is_chosen = false;  // ultrasound: by whoever attempts it
   std::optional<bool>
       defer_is_right{};     // what has to be decided at the sign-in; nothing: nobody said, or nobody is asked
   Fluoroscope fluoroscope;  // used under xray only

@@ -32,7 +32,7 @@ PersonAttempt::~PersonAttempt() {
   thread_.join();
 }
 
-std::shared_ptr<const session::Task> PersonAttempt::task() const {
+std::shared_ptr<session::Task> PersonAttempt::task() const {
   CHECK(phase() != Phase::preparing && task_);
   return task_;
 }
@@ -61,6 +61,11 @@ void PersonAttempt::begin(bool left_handed) {
     begin_ = true;
   }
   begun_.notify_all();
+}
+
+void PersonAttempt::choose_probe(std::string_view name) {
+  CHECK(phase() == Phase::ready);
+  session::choose_probe(*task_, name);
 }
 
 void PersonAttempt::resume(std::string attempt_id, bool left_handed) {
@@ -108,6 +113,9 @@ base::Result<session::LiveAttempt> PersonAttempt::live(casedb::Library& library)
                                 task_->scene, wanted_.keep);
   auto interrupted = session::InterruptedAttempt::take(library, *resumed_);
   if (!interrupted) return interrupted.error();
+  const std::string& probe = interrupted->attempt().picture.probe;
+  const auto offered = session::probes_to_choose(*task_);
+  if (std::find(offered.begin(), offered.end(), probe) != offered.end()) session::choose_probe(*task_, probe);
   if (!session::was_made_at(interrupted->attempt(), *task_))
     return base::Error{"other_case", "the interrupted attempt was made at another task than this"};
   if (const auto replayed = interrupted->replay(task_->scene); !replayed) return replayed.error();
@@ -254,7 +262,7 @@ void PersonAttempt::run() {
       auto task = session::prepare_task(*library, wanted_.case_id, "", std::nullopt, wanted_.modality,
                                         [this](double share) { prepared_ = share; });
       if (!task) return refuse(task.error());
-      task_ = std::make_shared<const session::Task>(std::move(*task));
+      task_ = std::make_shared<session::Task>(std::move(*task));
     }
     phase_.store(Phase::ready, std::memory_order_release);
     {

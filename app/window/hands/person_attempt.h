@@ -61,7 +61,7 @@ class PersonAttempt {
     std::string case_id;
     std::optional<cases::Modality> modality;  // else the case's own
     std::string person_id;
-    std::shared_ptr<const session::Task> task{};  // as prepared for an attempt before; else it is prepared
+    std::shared_ptr<session::Task> task{};  // as prepared for an attempt before; else it is prepared
     std::optional<Arms> arms{};
     session::PicturesBy by = session::PicturesBy::cpu;
     session::LiveAttempt::Keep keep = session::LiveAttempt::Keep::stored;
@@ -77,12 +77,14 @@ class PersonAttempt {
 
   Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
   double prepared() const noexcept { return prepared_; }  // 0 to 1
-  std::shared_ptr<const session::Task> task() const;      // from `ready` on (CHECKed)
-  const base::Error& error() const;                       // `refused` only (CHECKed)
-  const session::StoredAttempt& stored() const;           // `stored` only (CHECKed), or over where it is not kept
+  std::shared_ptr<session::Task> task() const;   // from `ready` on (CHECKed); nobody changes it from then on
+  const base::Error& error() const;              // `refused` only (CHECKed)
+  const session::StoredAttempt& stored() const;  // `stored` only (CHECKed), or over where it is not kept
 
   // By the window's thread, before `begin`: the arms are others, or stand elsewhere.
   void use(const std::optional<Arms>& arms) { wanted_.arms = arms; }
+  // By the window's thread, in `ready`: one of session::probes_to_choose.
+  void choose_probe(std::string_view name);
   // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
   void begin(bool left_handed);
   // The same, from `ready` over `preparing` to `running`: goes on with an attempt at this task that was
@@ -130,7 +132,7 @@ class PersonAttempt {
   Wanted wanted_;
   std::atomic<Phase> phase_{Phase::preparing};
   std::atomic<double> prepared_{0.0};
-  std::shared_ptr<const session::Task> task_;
+  std::shared_ptr<session::Task> task_;
   std::optional<base::Error> error_;
   std::optional<session::StoredAttempt> stored_;
   std::unique_ptr<session::Monitor> monitor_;

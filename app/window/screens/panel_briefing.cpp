@@ -15,6 +15,7 @@
 #include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 #include "session/case/planned_way.h"
+#include "sim/imaging/ultrasound/view/probe.h"
 
 namespace seldinger::app {
 namespace {
@@ -99,6 +100,23 @@ void draw_plan(const session::Task& task) {
   fact("Proposed path", way_words(*way));
 }
 
+// Where whoever attempts the case chooses: what each probe is, not which one suits.
+void draw_probes(Trainer& trainer) {
+  const std::vector<std::string> offered = trainer.probes();
+  if (offered.empty()) return;
+  ImGui::Spacing();
+  heading("Your probe");
+  for (const std::string& name : offered) {
+    const imaging::Probe& probe = *imaging::probe_named(name);
+    const std::string words = (probe.radius_mm > 0.0 ? "curvilinear " : "linear ") + name + ", " +
+                              reports::number_text(probe.least_mhz, 0) + " to " +
+                              reports::number_text(probe.most_mhz, 0) + " MHz";
+    if (ImGui::RadioButton(words.c_str(), trainer.chosen_probe() == name)) trainer.choose_probe(name);
+    note_item(words.c_str());
+  }
+  if (trainer.chosen_probe().empty()) quiet("Choose one: it is kept for the attempt.");
+}
+
 }  // namespace
 
 bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
@@ -143,6 +161,7 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
   const std::shared_ptr<const session::Task> prepared = ready ? trainer.attempt()->task() : nullptr;
   if (prepared) draw_plan(*prepared);
+  draw_probes(trainer);
   ImGui::Spacing();
   heading("To pass");
   if (row.rule.criteria.empty()) ImGui::TextWrapped("This case has no pass rule: it is practised, not graded.");
@@ -225,8 +244,9 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::EndDisabled();
   }
   ImGui::SameLine();
-  ImGui::BeginDisabled(!ready || !all);
-  const bool begin = noted_button("Enter the room (Enter)") || (ready && all && keys.pressed(kEnter));
+  const bool may_begin = ready && all && (trainer.probes().empty() || !trainer.chosen_probe().empty());
+  ImGui::BeginDisabled(!may_begin);
+  const bool begin = noted_button("Enter the room (Enter)") || (may_begin && keys.pressed(kEnter));
   ImGui::EndDisabled();
   if (!ready) {
     ImGui::SameLine();

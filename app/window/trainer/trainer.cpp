@@ -325,8 +325,9 @@ void Trainer::choose(const std::string& case_id) {
   prepare(nullptr);
 }
 
-void Trainer::prepare(std::shared_ptr<const session::Task> task) {
+void Trainer::prepare(std::shared_ptr<session::Task> task) {
   refusal_.clear();
+  if (!task) probe_.clear();
   const Choice* choice = find_choice(chosen_.case_id);
   const int passes = choice != nullptr && !trying_ ? choice->passes : 0;
   help_ = chosen_.difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - passes) : 0;
@@ -366,9 +367,23 @@ void Trainer::again() {
   prepare(prepared ? attempt_->task() : nullptr);
 }
 
+std::vector<std::string> Trainer::probes() const {
+  if (screen_ != TrainerScreen::briefing || !attempt_ || attempt_->phase() != PersonAttempt::Phase::ready)
+    return {};
+  return session::probes_to_choose(*attempt_->task());
+}
+
+void Trainer::choose_probe(const std::string& name) {
+  const std::vector<std::string> offered = probes();
+  if (std::find(offered.begin(), offered.end(), name) == offered.end()) return;
+  probe_ = name;
+  attempt_->choose_probe(name);
+}
+
 bool Trainer::begin(bool left_handed) {
   if (screen_ != TrainerScreen::briefing || !attempt_ || attempt_->phase() != PersonAttempt::Phase::ready)
     return false;
+  if (probe_.empty() && !probes().empty()) return false;
   restarting_ = false;
   if (interrupted_ && !trying_) session::close_interrupted_attempt(library_, *interrupted_);
   interrupted_.reset();

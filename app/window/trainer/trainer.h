@@ -145,7 +145,14 @@ class Trainer {
   void plan_as_proposed();  // the case's planned way, up to where its needle is fired
   void drop_plan() noexcept { plan_.reset(); }
 
-  // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet. An attempt
+  // The probes among which the trainee chooses, once the case is prepared; empty: there is no choice.
+  std::vector<std::string> probes() const;
+  // One of these; in an attempt that begins again the last, unless another is chosen. Empty: not yet.
+  void choose_probe(const std::string& name);
+  const std::string& chosen_probe() const noexcept { return probe_; }
+
+  // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet, or a probe
+  // is to be chosen. An attempt
   // at the case that was interrupted is closed: it will not be gone on with.
   bool begin(bool left_handed);
   // The account's attempt at the chosen case that a program left behind when it died; nothing: there is none.
@@ -198,7 +205,7 @@ class Trainer {
   void look_at_thumbnails();
   void open_first();
   const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
-  void prepare(std::shared_ptr<const session::Task> task);
+  void prepare(std::shared_ptr<session::Task> task);
   const session::Task* planned_task() const;  // what may be planned now; null: nothing
   void put_plan(const assessment::PlannedPath& path);
   void take_import();
@@ -238,6 +245,7 @@ class Trainer {
   std::string imported_;
   std::string first_case_;  // to be opened at log-in
   std::optional<casedb::OpenAttempt> interrupted_;
+  std::string probe_;
   bool provisional_ = true, restarting_ = false, trying_ = false, resuming_ = false;
   casedb::KeptDependability kept_dependability_;
   std::optional<assessment::statistics::Answer> dependability_;

@@ -225,6 +225,7 @@ CaseSetting full_setting() {
   setting.further_modalities = {cases::Modality::mpr, cases::Modality::xray};
   setting.position = cases::PatientPosition::lateral_left;
   setting.approach = cases::Approach::out_of_plane;
+  setting.probe_is_chosen = true;
   setting.instrument = {cases::InstrumentKind::core, 160.5, 0.635, 0.4, 2900.0, 21.5, 17.5, 3.5};
   setting.clinic = {1.3, 187.0, "latex", "lesion of the liver", true};
   setting.planned_entry_lps_mm = glm::dvec3(1.0 / 3.0, -2.0, 3e-3);
@@ -244,6 +245,7 @@ TEST_F(AuthoringTest, TheSettingComesBack) {
   EXPECT_EQ(row.further_modalities, setting.further_modalities);
   EXPECT_EQ(row.position, setting.position);
   EXPECT_EQ(row.approach, setting.approach);
+  EXPECT_TRUE(row.probe_is_chosen);
   EXPECT_EQ(row.instrument.kind, setting.instrument.kind);
   for (const auto member :
        {&cases::Instrument::length_mm, &cases::Instrument::radius_mm, &cases::Instrument::inner_radius_mm,
@@ -287,6 +289,7 @@ TEST_F(AuthoringTest, APhantomHasNothingOfAPatient) {
   const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
   static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
   refuse("UPDATE training_case SET subject = 'patient'");
+  refuse("UPDATE training_case SET probe_is_chosen = 0");
 }
 
 // Schema 39 takes a library whose cases breathe by the law of before: those that are published or attempted move as

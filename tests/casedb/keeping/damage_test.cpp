@@ -268,6 +268,7 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
         "DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes; DROP INDEX "
         "audit_of_everybodys_records; DROP INDEX metric_value_hit");
     old.run("ALTER TABLE training_case DROP COLUMN sight_law");
+    old.run("DROP TRIGGER training_case_keeps_its_probe; ALTER TABLE training_case DROP COLUMN probe_is_chosen");
     for (const char* later :
          {"DROP TRIGGER training_case_keeps_its_motion", "ALTER TABLE training_case DROP COLUMN breath_law",
           "ALTER TABLE training_case DROP COLUMN ct_breath",

@@ -120,6 +120,25 @@ TEST(UltrasoundPicture, ChoosesProbeAndDepthByTheTarget) {
   }
 }
 
+// The other probe shows the target too, as far as it reaches; back again the picture is the one of before.
+TEST(UltrasoundPicture, ByAnotherProbeShowsTheTargetWhereItWas) {
+  for (double below_mm = 12.0; below_mm <= 130.0; below_mm += 1.0) {
+    const cases::Picture picture = ultrasound_picture(below_mm);
+    for (const imaging::Probe* probe : offered_probes()) {
+      const cases::Picture other = by_probe(picture, *probe);
+      EXPECT_EQ(other.probe, probe->name);
+      EXPECT_EQ(other.modality, cases::Modality::ultrasound);
+      EXPECT_GE(other.depth_mm, probe->least_depth_mm);
+      EXPECT_LE(other.depth_mm, probe->most_depth_mm);
+      EXPECT_GT(other.depth_mm, std::min(below_mm, probe->most_depth_mm - 1.0)) << probe->name << " " << below_mm;
+      EXPECT_NEAR(other.rate_hz, std::min(60.0, 1540e3 / (2.0 * other.depth_mm * 128)), 1e-9);
+      if (other.probe == picture.probe) {
+        EXPECT_EQ(other.depth_mm, picture.depth_mm);
+      }
+    }
+  }
+}
+
 TEST(UltrasoundPlan, SeesTargetAndTipFromItsProbe) {
   const assessment::PuncturePlan& plan = planned().plan;
   const cases::Case& scene = planned().scene;
