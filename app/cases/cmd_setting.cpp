@@ -1,4 +1,6 @@
 // case setting: what a case asks of whoever attempts it.
+#include <algorithm>
+
 #include "app/acting/acting.h"
 #include "app/cases/setting_options.h"
 #include "app/cli/command.h"
@@ -84,6 +86,15 @@ void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
   read_criteria(arguments, setting.rule);
 }
 
+// Than its title, which a draft with attempts may change too.
+bool sets_more(const Arguments& arguments) {
+  return std::any_of(casedb::kSettingRows.begin(), casedb::kSettingRows.end(),
+                     [&](const casedb::SettingRow& row) {
+                       return row.option.name != nullptr && arguments.has(row.option.name);
+                     }) ||
+         arguments.has("--rule") || arguments.has("--pass") || arguments.has("--critical");
+}
+
 int run_case_setting(const Arguments& arguments) {
   std::optional<assessment::PassRule> rule;
   if (arguments.has("--rule")) {
@@ -108,10 +119,10 @@ int run_case_setting(const Arguments& arguments) {
   casedb::CaseSetting setting = *row;
   read_setting(arguments, setting);
   if (rule) setting.rule = std::move(*rule);
-  if (arguments.has("--title"))
-    if (const auto set = casedb::set_title(*library, case_id, arguments.text("--title")); !set)
-      return refuse(set.error());
-  const auto set = casedb::set_setting(*library, case_id, setting);
+  std::optional<std::string> title;
+  if (arguments.has("--title")) title = arguments.text("--title");
+  const auto set = title && !sets_more(arguments) ? casedb::set_title(*library, case_id, *title)
+                                                  : casedb::set_setting(*library, case_id, setting, title);
   return set ? kDone : refuse(set.error());
 }
 

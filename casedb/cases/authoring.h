@@ -52,8 +52,10 @@ struct StoredLabels {
 // The case's own first, then those added, in order.
 base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const CaseRow& row);
 
-// `no_case`, `not_a_draft`, `has_attempts`, `bad_setting`.
-base::Result<void> set_setting(Library& library, const std::string& case_id, const CaseSetting& setting);
+// `no_case`, `not_a_draft`, `has_attempts`, `bad_setting`; with a title, also as set_title. Both are set, or
+// neither.
+base::Result<void> set_setting(Library& library, const std::string& case_id, const CaseSetting& setting,
+                               const std::optional<std::string>& title = std::nullopt);
 base::Result<void> check_case_title(const std::string& title);  // `bad_title`: not 1 to 100 bytes on one line
 base::Result<void> set_title(Library& library, const std::string& case_id,
                              const std::string& title);  // `bad_title`

@@ -220,12 +220,24 @@ base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const 
   return maps;
 }
 
-base::Result<void> set_setting(Library& library, const std::string& case_id, const CaseSetting& setting) {
+namespace {
+
+void write_title(Sqlite& database, const std::string& case_id, const std::string& title) {
+  question(database, "set_title").bind("case_id", case_id).bind("title", title).run();
+}
+
+}  // namespace
+
+base::Result<void> set_setting(Library& library, const std::string& case_id, const CaseSetting& setting,
+                               const std::optional<std::string>& title) {
   if (const auto fit = check_setting(setting); !fit) return fit.error();
+  if (title)
+    if (const auto fit = check_case_title(*title); !fit) return fit.error();
   Transaction transaction(library.database());
   const auto row = changeable_case(library, case_id);
   if (!row) return row.error();
   write_setting(library.database(), case_id, setting);
+  if (title) write_title(library.database(), case_id, *title);
   audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   return {};
@@ -237,7 +249,7 @@ base::Result<void> set_title(Library& library, const std::string& case_id, const
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
   if (row->state != CaseState::draft) return kNotADraft;
-  question(library.database(), "set_title").bind("case_id", case_id).bind("title", title).run();
+  write_title(library.database(), case_id, title);
   audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   return {};

@@ -160,7 +160,9 @@ TEST_F(AuthoringCommands, LesionsOfEveryShapeAreAttempted) {
     const auto replay = call("replay " + attempt.at("attempt_id").get<std::string>() + " --verify --json");
     EXPECT_EQ(Json::parse(replay.out).at("verified"), true) << shape;
   }
-  EXPECT_EQ(code_of("case setting " + case_id_ + " --inr 1"), "has_attempts");
+  EXPECT_EQ(code_of("case setting " + case_id_ + " --inr 1 --title 'Another'"), "has_attempts");
+  EXPECT_EQ(answer("case show " + case_id_ + " --json").at("title"), "Ball") << "all of it or nothing";
+  EXPECT_EQ(call("case setting " + case_id_ + " --title Ball").exit_code, 0) << "a title alone may change";
 }
 
 TEST_F(AuthoringCommands, LabelMapsAreTakenResampledAndRefused) {

@@ -98,6 +98,7 @@ struct Window::Parts {
   std::vector<int> pressed;  // since the frame began
   int heard = 0;             // that went down since the window opened
   bool shifted = false;      // one of them with Shift, which may be up again
+  bool clicked = false;      // a button of the mouse went down since the frame began
   std::optional<gpu::Context> context;
   float screen = 1.0F, letters = 1.0F;  // of the screen's dots; what is asked for
   float scale = 1.0F;                   // of letters and distances, with what the window's size makes of it
@@ -148,7 +149,7 @@ struct Window::Parts {
     const auto is_press = [](int key) { return key == kEnter || key == kSpace || key == kKeypadEnter; };
     const bool press = !keys.alt && !keys.control && std::any_of(now.begin(), now.end(), is_press);
     const bool tab = went_down(kTab) || given == kTab;
-    bool by_mouse = false;
+    bool by_mouse = std::exchange(clicked, false);  // however short
     for (int button = GLFW_MOUSE_BUTTON_LEFT; button <= GLFW_MOUSE_BUTTON_MIDDLE; ++button)
       by_mouse = by_mouse || glfwGetMouseButton(window, button) == GLFW_PRESS;
     if (!walk_by_keys(walks, tab, press, by_mouse)) return;
@@ -217,7 +218,10 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
   glfwSetDropCallback(parts_->window, [](GLFWwindow* window, int count, const char** paths) {
     if (count > 0) static_cast<Parts*>(glfwGetWindowUserPointer(window))->dropped = paths[0];
   });
-  glfwSetMouseButtonCallback(parts_->window, ImGui_ImplGlfw_MouseButtonCallback);
+  glfwSetMouseButtonCallback(parts_->window, [](GLFWwindow* window, int button, int action, int modifiers) {
+    if (action == GLFW_PRESS) static_cast<Parts*>(glfwGetWindowUserPointer(window))->clicked = true;
+    ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
+  });
   glfwSetScrollCallback(parts_->window, ImGui_ImplGlfw_ScrollCallback);
   glfwSetWindowFocusCallback(parts_->window, ImGui_ImplGlfw_WindowFocusCallback);
   glfwSetCursorEnterCallback(parts_->window, ImGui_ImplGlfw_CursorEnterCallback);
