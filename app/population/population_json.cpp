@@ -26,6 +26,7 @@ Json level_json(const LevelAgreement& level) {
                        {"values", metric.values},
                        {"quantile_sd", metric.quantile_sd},
                        {"quantile_error_sd", metric.quantile_error_sd},
+                       {"quantile_errors_beyond", metric.quantile_errors},
                        {"null_points", metric.null_points},
                        {"zero_points", metric.zero_points}});
   return {{"group", level.group},
@@ -123,6 +124,7 @@ std::string json_of_doses(const std::vector<population::MetricDose>& doses, cons
                            {"coverage", ratio(static_cast<double>(one.covered), one.intervals)},
                            {"mean_width", one.mean_width},
                            {"d", number_or_null(one.d)},
+                           {"d_of_logarithms", one.d && one.of_logarithms},
                            {"d_intervals", one.d_intervals},
                            {"d_coverage", ratio(static_cast<double>(one.d_covered), one.d_intervals)},
                            {"paired_rank_correlation", one.paired}});
