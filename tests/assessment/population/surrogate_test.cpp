@@ -219,6 +219,11 @@ TEST(Surrogate, AnyDifferenceOfItsMarkIsTold) {
   EXPECT_NE(difference(other, mark), "");
   EXPECT_NE(difference(mark, mark_of_today(kStep + 1, "case-1", "Ball", "x")), "");
   EXPECT_NE(difference(mark, mark_of_today(kStep, "case-1", "Ball", "y")), "");
+  // At a case of an older law of sight what is told by sight is of its version.
+  other = mark_of_today(kStep, "case-1", "Ball", "x", cases::SightLaw::echo);
+  EXPECT_NE(difference(mark, other), "");
+  const std::size_t sight = fitted().index_of("vis_joint");
+  EXPECT_EQ(other.metrics.at(sight).version, mark.metrics.at(sight).version - 1);
   other = mark;
   ++other.people_version;
   EXPECT_NE(difference(mark, other), "");
