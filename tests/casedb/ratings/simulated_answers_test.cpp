@@ -156,7 +156,7 @@ TEST_F(SimulatedAnswersTest, WhatIsMissingWasPractice) {
   NewRatingRound asked;
   asked.round = {.title = "The last", .form_id = "osats-grs"};
   asked.replays = {{add_attempt(library_, last).value(), "<section></section>"}};
-  asked.raters = 3;
+  asked.raters = asked.each = 9;  // all of them
   const auto opened = open_rating_round(library_, asked);
   ASSERT_TRUE(opened.has_value()) << opened.error().code;
   ASSERT_TRUE(simulate_answers(library_, opened->round.code, 9));
