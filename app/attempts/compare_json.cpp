@@ -45,10 +45,10 @@ Json json_of(const casedb::ComparedGroup& group, const casedb::Comparison& compa
   }
   for (std::size_t i = 0; i < comparison.metrics.size(); ++i) {
     Json json = json_of(group.of_metrics[i]);
-    json["metric"] = comparison.metrics[i]->id;
-    json["version"] = comparison.metrics[i]->version;
-    json["unit"] = comparison.metrics[i]->unit;
-    add_estimate(*comparison.metrics[i], group.of_metrics[i].one, json);
+    json["metric"] = comparison.metrics[i].id;
+    json["version"] = comparison.metrics[i].version;
+    json["unit"] = comparison.metrics[i].unit;
+    add_estimate(comparison.metrics[i], group.of_metrics[i].one, json);
     metrics.push_back(std::move(json));
   }
   for (const casedb::ComparedAttempt& one : group.attempts) {

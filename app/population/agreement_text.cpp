@@ -67,8 +67,8 @@ void add_worst(const LevelAgreement& level, std::string& text) {
   worst.resize(std::min(worst.size(), kWorstShown));
   text += "\nFurthest off, " + level.group + ":";
   for (const population::MetricAgreement& metric : worst)
-    add_line(text, " `%s` %+.2f SD (standard error %.2f),", metric.metric.c_str(), metric.quantile_sd,
-             metric.quantile_error_sd);
+    add_line(text, " `%s` %+.2f SD (standard error %.2f; beyond the bound by %.1f),", metric.metric.c_str(),
+             metric.quantile_sd, metric.quantile_error_sd, metric.quantile_errors);
   if (one.worst_pair.empty())
     text += " and no pair could be compared.\n";
   else

@@ -65,7 +65,10 @@ void print_sum(const std::vector<population::MetricDose>& doses, const std::vect
 
 // Of metrics that are normal enough at some shift.
 void print_differences(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
-  print("\nDifferences in standard deviations, of metrics that are normal enough in both groups:\n\n| metric |");
+  print(
+      "\nDifferences in standard deviations, of metrics that are normal enough in both groups (skewness within "
+      "±0.5, "
+      "excess kurtosis within ±1), or whose logarithm is (ln):\n\n| metric |");
   for (const double shift : shifts) print(" shift %g |", shift);
   print("\n|---|");
   for (std::size_t s = 0; s < shifts.size(); ++s) print("---|");
@@ -76,7 +79,7 @@ void print_differences(const std::vector<population::MetricDose>& doses, const s
     print("| `%s` |", one.metric.c_str());
     for (const population::MetricResponse& at : one.responses)
       if (at.d)
-        print(" %+.2f (%.1f %%) |", *at.d, 100.0 * d_covered_share(at));
+        print(" %+.2f%s (%.1f %%) |", *at.d, at.of_logarithms ? " ln" : "", 100.0 * d_covered_share(at));
       else
         print(" – |");
     print("\n");

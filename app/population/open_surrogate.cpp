@@ -18,7 +18,7 @@ namespace population = assessment::population;
 population::SurrogateMark mark_of_case(casedb::Library& library, const session::Simulation& simulation) {
   const casedb::CaseRow& row = simulation.task().row;
   return population::mark_of_today(engine::kStepVersion, row.case_id, row.title,
-                                   casedb::content_mark(library, row.case_id));
+                                   casedb::content_mark(library, row.case_id), row.sight_law);
 }
 
 base::Result<population::Surrogate> surrogate_of(const Arguments& arguments) {
@@ -30,11 +30,15 @@ base::Result<population::Surrogate> surrogate_in(const char* option, const std::
   if (!text) return error_of(option, file, text.error());
   auto surrogate = population::Surrogate::from_json(*text);
   if (!surrogate) return error_of(option, file, surrogate.error());
-  const auto today = population::mark_of_today(engine::kStepVersion, surrogate->mark().case_id,
-                                               surrogate->mark().case_title, surrogate->mark().case_mark);
-  if (const std::string other = difference(surrogate->mark(), today); !other.empty())
-    return base::Error{"other_surrogate", "the surrogate is of " + other, {}};
-  return surrogate;
+  const population::SurrogateMark& mark = surrogate->mark();
+  // Of which law of sight its case is the file does not say: one of them must have measured these versions.
+  std::string differs;
+  for (const auto& law : cases::kSightLawNames) {
+    differs = difference(mark, population::mark_of_today(engine::kStepVersion, mark.case_id, mark.case_title,
+                                                         mark.case_mark, law.value));
+    if (differs.empty()) return surrogate;
+  }
+  return base::Error{"other_surrogate", "the surrogate is of " + differs, {}};
 }
 
 std::optional<population::Group> group_from(const std::string& text) {

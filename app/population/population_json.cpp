@@ -26,6 +26,7 @@ Json level_json(const LevelAgreement& level) {
                        {"values", metric.values},
                        {"quantile_sd", metric.quantile_sd},
                        {"quantile_error_sd", metric.quantile_error_sd},
+                       {"quantile_errors_beyond", metric.quantile_errors},
                        {"null_points", metric.null_points},
                        {"zero_points", metric.zero_points}});
   return {{"group", level.group},
@@ -87,11 +88,15 @@ std::string json_of_effects(const SimulatedEffects& effects) {
     metrics.push_back({{"metric", one.metric},
                        {"values", one.values},
                        {"d", number_or_null(one.difference)},
-                       {"auc", number_or_null(one.area)}});
+                       {"auc", number_or_null(one.area)},
+                       {"novices", number_or_null(one.novices)},
+                       {"practised", number_or_null(one.practised)},
+                       {"experts", number_or_null(one.experts)}});
   for (const population::ReferenceEffect& row : population::reference_effects()) {
     const auto interval = population::interval95(row);
     const std::optional<double> unselected =
         row.selected ? std::optional(population::unselected(row.value, row.n1, row.n2)) : std::nullopt;
+    const auto within = is_within(effects, row);
     published.push_back({{"source", row.source},
                          {"what", row.what},
                          {"kind", kind_text(row.kind)},
@@ -101,11 +106,13 @@ std::string json_of_effects(const SimulatedEffects& effects) {
                          {"unselected", number_or_null(unselected)},
                          {"fitted", row.fitted},
                          {"how", row.how},
-                         {"simulated", number_or_null(predicted(effects, row))}});
+                         {"simulated", number_or_null(predicted(effects, row))},
+                         {"within", within ? Json(*within) : Json(nullptr)}});
   }
   return casedb::text(Json{{"synthetic", true},
                            {"case", effects.case_title},
                            {"people", effects.people},
+                           {"practice_gain", effects.practice_gain},
                            {"metrics", metrics},
                            {"published", published}});
 }
@@ -123,6 +130,7 @@ std::string json_of_doses(const std::vector<population::MetricDose>& doses, cons
                            {"coverage", ratio(static_cast<double>(one.covered), one.intervals)},
                            {"mean_width", one.mean_width},
                            {"d", number_or_null(one.d)},
+                           {"d_of_logarithms", one.d && one.of_logarithms},
                            {"d_intervals", one.d_intervals},
                            {"d_coverage", ratio(static_cast<double>(one.d_covered), one.d_intervals)},
                            {"paired_rank_correlation", one.paired}});

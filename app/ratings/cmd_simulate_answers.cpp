@@ -3,6 +3,7 @@
 
 #include "app/acting/acting.h"
 #include "app/cli/command.h"
+#include "app/questionnaires/acting_in_round.h"
 #include "app/ratings/rating_json.h"
 #include "casedb/ratings/simulated_answers.h"
 
@@ -13,9 +14,9 @@ int run_simulate_answers(const Arguments& arguments) {
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  if (const auto by = acting(*library, arguments, casedb::Action::manage_questionnaires); !by)
-    return refuse(by.error());
-  const auto made = casedb::simulate_answers(*library, arguments.positional(0), seed);
+  const auto round = round_to_read(*library, arguments);
+  if (!round) return refuse(round.error());
+  const auto made = casedb::simulate_answers(*library, round->code, seed);
   if (!made) return refuse(made.error());
   if (arguments.has("--json"))
     std::fputs(json_of_simulated(*made).c_str(), stdout);

@@ -129,7 +129,8 @@ std::vector<Demand> demands_of(const PassRule& rule, const Guidance& guidance) {
   for (std::size_t i = 0; i < rule.criteria.size(); ++i) {
     const Criterion& one = rule.criteria[i];
     const MetricInfo* info = find_metric(one.metric);
-    if (info == nullptr || info->version != one.version || !std::isfinite(one.value)) continue;
+    if (info == nullptr || version_of(*info, guidance.sight_law) != one.version || !std::isfinite(one.value))
+      continue;
     if (one.comparison != Comparison::at_most) all.push_back({one.metric, true, one.value, i, ""});
     if (one.comparison != Comparison::at_least) all.push_back({one.metric, false, one.value, i, ""});
     if (needs_a_puncture(*info))

@@ -118,7 +118,8 @@ std::vector<base::Problem> problems_of(const PassRule& rule, const Guidance& gui
       problems.push_back({"unknown_metric", "no metric is called " + one.metric});
     else if (const int version = version_of(*info, guidance.sight_law); version != one.version)
       problems.push_back({"other_version", one.metric + " is measured by version " + std::to_string(version) +
-                                               ", not " + std::to_string(one.version)});
+                                               ", not " + std::to_string(one.version) +
+                                               ": name that one, and see whether the limit still fits"});
     else if (!can_have_a_value(*info, guidance))
       problems.push_back({"not_meaningful", one.metric + " has no value under the case's guidance, approach and "
                                                          "instrument, or needs a structure that it does not have"});

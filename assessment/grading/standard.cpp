@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "assessment/estimand.h"
+#include "assessment/grading/expert_set_at.h"
 #include "assessment/grading/tolerance.h"
 #include "assessment/grading/worthwhile.h"
 #include "assessment/metrics/quality.h"
@@ -149,6 +150,10 @@ bool ExpertSet::only_other_version(std::string_view metric, int version) const n
 }
 
 ExpertSet expert_set(std::vector<ExpertAttempt> attempts) {
+  return expert_set_at(cases::kNewestSightLaw, std::move(attempts));
+}
+
+ExpertSet expert_set_at(cases::SightLaw law, std::vector<ExpertAttempt> attempts) {
   ExpertSet set;
   std::map<std::string, std::vector<const ExpertAttempt*>> by_person;
   for (const ExpertAttempt& attempt : attempts)
@@ -168,8 +173,9 @@ ExpertSet expert_set(std::vector<ExpertAttempt> attempts) {
   if (by_person.empty()) return set;
   std::sort(set.attempt_ids.begin(), set.attempt_ids.end());
   if (set.enough_people())
-    for (const MetricInfo& info : registry()) {
+    for (MetricInfo info : registry()) {
       if (info.group == Group::recording) continue;  // says how it was recorded, not what was done
+      info.version = version_of(info, law);
       std::vector<double> values = values_of(by_person, info);
       if (values.size() >= kStandardConsultants) set.bands.push_back(band_of(info, std::move(values)));
     }

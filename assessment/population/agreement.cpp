@@ -9,13 +9,12 @@
 #include "assessment/population/streams.h"
 #include "assessment/statistics/ranks.h"
 #include "assessment/statistics/relations/discrimination.h"
-#include "sim/base/rng.h"
 
 namespace seldinger::assessment::population {
 namespace {
 
 constexpr double kQuantileLimit = 0.1, kShareLimit = 3.0, kPairLimit = 0.1, kErrors = 3.0;
-constexpr std::size_t kFewestCompared = 30, kResamples = 200;
+constexpr std::size_t kFewestCompared = 30;
 
 // Of differences, each with its standard error: what is left when chance is taken away, root mean square. What
 // chance blurs beyond the limit counts the less for it: a square's own error goes with the variance.
@@ -66,6 +65,16 @@ double quantile_at(const std::vector<double>& sorted, double share, bool whole) 
   return sorted[low] + (sorted[high] - sorted[low]) * std::clamp(place - static_cast<double>(low), 0.0, 1.0);
 }
 
+// The share of values below another one, half of those that are equal to it; of whole numbers spread over their
+// unit.
+double share_below(const std::vector<double>& sorted, double value, bool whole) {
+  const double number = whole ? std::round(value) : value;
+  const auto [first, past] = std::equal_range(sorted.begin(), sorted.end(), number);
+  const double part = whole ? value - (number - 0.5) : 0.5;
+  return (static_cast<double>(first - sorted.begin()) + part * static_cast<double>(past - first)) /
+         static_cast<double>(sorted.size());
+}
+
 double mean_of(const std::vector<double>& x) {
   return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
@@ -79,42 +88,36 @@ double sd_of(const std::vector<double>& x) {
 }
 
 constexpr std::array kShares = {0.1, 0.5, 0.9};
-using Quantiles = std::array<double, kShares.size()>;
 
-Quantiles quantiles_of(const std::vector<double>& sorted, bool whole) {
-  Quantiles made{};
-  for (std::size_t i = 0; i < made.size(); ++i) made[i] = quantile_at(sorted, kShares[i], whole);
-  return made;
+// Of the quantile at a share, by those one standard error of the share to either side (Woodruff, J. Am. Stat.
+// Assoc. 47, 1952, 635).
+double quantile_error(const std::vector<double>& sorted, double share, bool whole) {
+  const double error = std::sqrt(share * (1.0 - share) / static_cast<double>(sorted.size()));
+  return 0.5 * (quantile_at(sorted, share + error, whole) - quantile_at(sorted, share - error, whole));
 }
 
-// Standard errors by drawing as many again.
-Quantiles quantile_errors(const std::vector<double>& sorted, bool whole, std::uint64_t seed) {
-  std::array<std::vector<double>, kShares.size()> found;
-  std::vector<double> again(sorted.size());
-  for (std::size_t r = 0; r < kResamples; ++r) {
-    for (std::size_t i = 0; i < again.size(); ++i)
-      again[i] = sorted[static_cast<std::size_t>(base::uniform_at(base::hash_combine(seed, std::uint64_t{r}), i) *
-                                                 static_cast<double>(sorted.size()))];
-    std::sort(again.begin(), again.end());
-    const Quantiles one = quantiles_of(again, whole);
-    for (std::size_t q = 0; q < one.size(); ++q) found[q].push_back(one[q]);
-  }
-  Quantiles errors{};
-  for (std::size_t q = 0; q < errors.size(); ++q) errors[q] = sd_of(found[q]);
-  return errors;
+// Of n attempts a share lay below; how many standard errors that is from the share that was to. The arc sine makes
+// the errors of all shares alike.
+double errors_of_share(double found, double expected, std::size_t n) {
+  return 2.0 * std::sqrt(static_cast<double>(n)) *
+         std::abs(std::asin(std::sqrt(found)) - std::asin(std::sqrt(expected)));
 }
 
 double share_error_points(double share, std::size_t n) {
   return 100.0 * std::sqrt(std::max(share * (1.0 - share), 1.0 / static_cast<double>(n)) / static_cast<double>(n));
 }
 
-void count_comparison(double off, double limit, double error, Agreement& sum) {
+void count_errors(double errors_beyond, Agreement& sum) {
   ++sum.comparisons;
-  if (off > limit) sum.furthest_errors = std::max(sum.furthest_errors, (off - limit) / error);
+  sum.furthest_errors = std::max(sum.furthest_errors, errors_beyond);
+}
+
+void count_comparison(double off, double limit, double error, Agreement& sum) {
+  count_errors(std::max(off - limit, 0.0) / error, sum);
 }
 
 MetricAgreement metric_agreement(std::span<const Values> full, std::span<const Values> drawn, std::size_t m,
-                                 bool whole, std::uint64_t seed, OwnError& own, Agreement& sum) {
+                                 bool whole, OwnError& own, Agreement& sum) {
   MetricAgreement made;
   const Column a = column_of(full, m), b = column_of(drawn, m);
   made.values = a.values.size();
@@ -131,18 +134,24 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   const double sd = sd_of(a.values);
   if (!(sd > 0.0) || b.values.empty()) return made;
   bool off = false, beyond = false;
-  const Quantiles here = quantiles_of(a.values, whole), there = quantiles_of(b.values, whole);
-  const Quantiles errors = quantile_errors(a.values, whole, base::hash_combine(seed, std::uint64_t{m}));
-  for (std::size_t q = 0; q < kShares.size(); ++q) {
-    const double difference = (there[q] - here[q]) / sd, error = errors[q] / sd;
-    count_comparison(std::abs(difference), kQuantileLimit, error, sum);
+  for (const double share : kShares) {
+    const double here = quantile_at(a.values, share, whole), there = quantile_at(b.values, share, whole);
+    const double difference = (there - here) / sd, error = quantile_error(a.values, share, whole) / sd;
+    // Were the surrogate right but for a move by the limit, so large a share of attempts would lie below their
+    // quantile: the sign test, which asks nothing of how densely they lie there.
+    const double moved = here + std::copysign(kQuantileLimit * sd, difference);
+    const double errors = std::abs(difference) > kQuantileLimit
+                              ? errors_of_share(share, share_below(b.values, moved, whole), a.values.size())
+                              : 0.0;
+    count_errors(errors, sum);
     off = off || std::abs(difference) > kQuantileLimit;
-    beyond = beyond || std::abs(difference) > kQuantileLimit + kErrors * error;
+    beyond = beyond || errors > kErrors;
     own.add(difference, error);
     if (std::abs(difference) > std::abs(made.quantile_sd)) {
       made.quantile_sd = difference;
       made.quantile_error_sd = error;
     }
+    made.quantile_errors = std::max(made.quantile_errors, errors);
   }
   sum.quantiles_off += off ? 1U : 0U;
   sum.quantiles_beyond_chance += beyond ? 1U : 0U;
@@ -253,7 +262,7 @@ Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoin
     if (static_cast<std::size_t>(values) < kFewestCompared) continue;
     compared.push_back(m);
     sum.metrics.push_back(
-        metric_agreement(full, drawn, m, is_whole(surrogate.mark().metrics[m].id), seed, of_quantiles, sum));
+        metric_agreement(full, drawn, m, is_whole(surrogate.mark().metrics[m].id), of_quantiles, sum));
     sum.metrics.back().metric = surrogate.mark().metrics[m].id;
   }
   sum.quantile_own_sd = of_quantiles.rms();

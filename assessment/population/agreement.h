@@ -17,7 +17,10 @@ struct MetricAgreement {
   // The surrogate's minus the attempts': of the quantiles 10, 50 and 90 the largest, in standard deviations; of
   // nulls and of zeros in points of 100. Of a count they are those of grouped data, each number spread over its
   // unit: a plain quantile jumps by a whole unit where a share passes its mark.
-  double quantile_sd = 0.0, quantile_error_sd = 0.0;  // and one standard error of that quantile, by the bootstrap
+  double quantile_sd = 0.0, quantile_error_sd = 0.0;  // and one standard error of that quantile (Woodruff 1952)
+  // How far beyond .1 SD the furthest of the three quantiles is, in standard errors of the share of attempts that
+  // lie below it, were the surrogate right: the sign test, for which it does not matter how densely they lie there.
+  double quantile_errors = 0.0;
   double null_points = 0.0, null_error_points = 0.0;
   double zero_points = 0.0, zero_error_points = 0.0;
 };

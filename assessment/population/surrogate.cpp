@@ -82,13 +82,13 @@ Place place_of(const Person& person, const Occasion& occasion) {
 }
 
 SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std::string case_title,
-                            std::string case_mark) {
+                            std::string case_mark, cases::SightLaw law) {
   SurrogateMark mark;
   mark.step_version = step_version;
   mark.case_id = std::move(case_id);
   mark.case_title = std::move(case_title);
   mark.case_mark = std::move(case_mark);
-  for (const MetricInfo& info : registry()) mark.metrics.push_back({std::string(info.id), info.version});
+  for (const MetricInfo& info : registry()) mark.metrics.push_back({std::string(info.id), version_of(info, law)});
   return mark;
 }
 

@@ -14,6 +14,7 @@
 #include "assessment/metrics/metric.h"
 #include "assessment/population/person.h"
 #include "sim/base/result.h"
+#include "sim/case/case.h"
 
 namespace seldinger::assessment::population {
 
@@ -34,9 +35,9 @@ struct SurrogateMark {
   std::vector<Metric> metrics;  // of the registry, in its order
   bool operator==(const SurrogateMark&) const = default;
 };
-// Of the metrics of today.
+// Of the metrics of today, at a case of that law of sight.
 SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std::string case_title,
-                            std::string case_mark);
+                            std::string case_mark, cases::SightLaw law = cases::kNewestSightLaw);
 // What differs, in words; empty: nothing.
 std::string difference(const SurrogateMark& one, const SurrogateMark& other);
 

@@ -14,11 +14,17 @@ void bad(std::vector<base::Problem>& wrong, const std::string& place, const std:
   wrong.push_back({"bad_study_plan", place + " " + what});
 }
 
-void check_outcome(const Outcome& outcome, const std::string& place, std::vector<base::Problem>& wrong) {
+using Laws = std::map<std::string, cases::SightLaw>;  // by case
+
+void check_outcome(const Outcome& outcome, const Laws& laws, const std::string& place,
+                   std::vector<base::Problem>& wrong) {
   const MetricInfo* info = find_metric(outcome.metric);
   if (info == nullptr) return bad(wrong, place + ".metric", "is no metric (docs/metrics.md)");
-  if (info->version != outcome.version)
-    return bad(wrong, place + ".version", "is not the one that is measured now, " + std::to_string(info->version));
+  const auto law = laws.find(outcome.case_id);
+  const int version = version_of(*info, law == laws.end() ? cases::kNewestSightLaw : law->second);
+  if (version != outcome.version)
+    return bad(wrong, place + ".version",
+               "is not the one that is measured now at that case, " + std::to_string(version));
   if (info->group == Group::recording) bad(wrong, place + ".metric", "tells of the recording, not of the person");
   if (info->direction != Direction::none && outcome.better != info->direction)
     bad(wrong, place + ".better", "contradicts the metric's own direction");
@@ -45,12 +51,12 @@ bool can_fail(const MetricInfo& info) noexcept {
          info.estimand.aggregation != Aggregation::proportion;
 }
 
-std::vector<base::Problem> problems_of(const Plan& plan) {
+std::vector<base::Problem> problems_of(const Plan& plan, const Laws& laws) {
   std::vector<base::Problem> wrong;
   for (std::size_t i = 0; i < plan.primary.size(); ++i)
-    check_outcome(plan.primary[i], "primary[" + std::to_string(i) + "]", wrong);
+    check_outcome(plan.primary[i], laws, "primary[" + std::to_string(i) + "]", wrong);
   for (std::size_t i = 0; i < plan.secondary.size(); ++i)
-    check_outcome(plan.secondary[i], "secondary[" + std::to_string(i) + "]", wrong);
+    check_outcome(plan.secondary[i], laws, "secondary[" + std::to_string(i) + "]", wrong);
   for (std::size_t i = 0; i < plan.exclusions.size(); ++i) {
     const MetricInfo* info = find_metric(plan.exclusions[i].metric);
     if (info == nullptr || info->group != Group::recording)

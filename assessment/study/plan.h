@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "assessment/metrics/metric.h"
 #include "sim/base/names.h"
 #include "sim/base/result.h"
+#include "sim/case/case.h"
 
 namespace seldinger::assessment::study {
 
@@ -115,8 +117,9 @@ inline constexpr int kLeastImputations = 10, kMostImputations = 500;
 // `bad_study_plan`, each problem a finding that names its place ("primary[0].compare"). Of form alone: what was
 // frozen is read whatever became of its metrics.
 base::Result<Plan> plan_from_json(const std::string& text);
-// What is wrong with a plan by the metrics of today, in the same words; asked of drafts.
-std::vector<base::Problem> problems_of(const Plan& plan);
+// What is wrong with a plan by the metrics of today, in the same words; asked of drafts. `laws`: by which law of
+// sight its cases' pictures are told; of others the newest.
+std::vector<base::Problem> problems_of(const Plan& plan, const std::map<std::string, cases::SightLaw>& laws = {});
 // Whether somebody can have failed at it instead of having a value.
 bool can_fail(const MetricInfo& info) noexcept;
 // Keys in their order, digits as short as they read back, no blanks: the same for every text of the same plan, and

@@ -75,16 +75,16 @@ void sum_up(ComparedGroup& group, const Comparison& comparison) {
     }
     group.of_criteria.push_back(over(std::move(values)));
   }
-  for (const assessment::MetricInfo* info : comparison.metrics) {
+  for (const assessment::MetricInfo& info : comparison.metrics) {
     std::vector<double> values;
     std::vector<assessment::Contribution> contributions;
     for (const ComparedAttempt* attempt : gradable) {
-      const assessment::Contribution one = assessment::contribution_of(*info, attempt->row.metrics);
+      const assessment::Contribution one = assessment::contribution_of(info, attempt->row.metrics);
       if (one.counted == assessment::Counted::value) values.push_back(one.value);
       contributions.push_back(one);
     }
     group.of_metrics.push_back(over(std::move(values)));
-    group.of_metrics.back().one = assessment::of_one_person(*info, contributions);
+    group.of_metrics.back().one = assessment::of_one_person(info, contributions);
   }
 }
 
@@ -122,10 +122,12 @@ base::Result<Comparison> compare_attempts(Library& library, const std::string& c
   made.row = std::move(*row);
   made.other_tasks = std::erase_if(attempts, [&](const auto& one) { return task_of(one) != task_of(first); });
   std::reverse(attempts.begin(), attempts.end());  // oldest first
-  for (const assessment::MetricInfo& info : assessment::registry())
+  for (assessment::MetricInfo info : assessment::registry()) {
+    info.version = assessment::version_of(info, made.row.sight_law);
     if (info.group != assessment::Group::recording && assessment::applies(info.needs, made.manner) &&
         std::any_of(attempts.begin(), attempts.end(), [&](const auto& one) { return value_of(one, info); }))
-      made.metrics.push_back(&info);
+      made.metrics.push_back(info);
+  }
   Grader grader(library);
   for (AttemptRow& one : attempts) {
     AttemptGrade grade = grader.look_at(one);

@@ -42,9 +42,9 @@ struct Comparison {
   CaseRow row;
   assessment::Manner manner;
   std::string lesion_id;
-  std::vector<assessment::CriterionResult> criteria;   // in the rule's order, then the time limit; no values
-  std::vector<const assessment::MetricInfo*> metrics;  // that some attempt has, as measured now
-  std::vector<ComparedGroup> groups;                   // people, then the simulated, by name
+  std::vector<assessment::CriterionResult> criteria;  // in the rule's order, then the time limit; no values
+  std::vector<assessment::MetricInfo> metrics;        // that some attempt has, as measured now at the case
+  std::vector<ComparedGroup> groups;                  // people, then the simulated, by name
   assessment::ExpertSet experts;
   bool provisional = true;
   // Of passing cases of the library, by what people did (casedb/grading/dependability.h); none: the case has no

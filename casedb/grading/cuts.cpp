@@ -124,7 +124,8 @@ base::Result<std::string> propose_cut(Library& library, const NewCut& cut, const
   Transaction transaction(library.database());
   const auto account = account_that_may(library, by, Action::propose_cut);
   if (!account) return account.error();
-  if (const auto row = find_case(library, cut.case_id); !row) return row.error();
+  const auto row = find_case(library, cut.case_id);
+  if (!row) return row.error();
   const assessment::MetricInfo* metric = assessment::find_metric(cut.metric_id);
   if (metric == nullptr && !cut.metric_id.empty()) return base::Error{"unknown_metric", "there is no such metric"};
   const bool lower = metric != nullptr && metric->direction == assessment::Direction::lower_is_better;
@@ -141,7 +142,9 @@ base::Result<std::string> propose_cut(Library& library, const NewCut& cut, const
       .bind("cut_id", cut_id)
       .bind("case_id", cut.case_id)
       .bind("metric_id", metric != nullptr ? std::optional(cut.metric_id) : std::nullopt)
-      .bind("version", metric != nullptr ? std::optional<std::int64_t>(metric->version) : std::nullopt)
+      .bind("version", metric != nullptr
+                           ? std::optional<std::int64_t>(assessment::version_of(*metric, row->sight_law))
+                           : std::nullopt)
       .bind("higher_is_better", lower ? 0 : 1)
       .bind("method", cut.method->name)
       .bind("options", text_of(chosen))

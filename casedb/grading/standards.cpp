@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assessment/grading/expert_set_at.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/database/audit.h"
 #include "casedb/database/question.h"
@@ -138,7 +139,7 @@ assessment::ExpertSet consultants_of(Library& library, const Task& task) {
     if (task_of(one) == task && one.person_id)
       experts.push_back({one.attempt_id, *one.person_id, one.started_us, every_version(one),
                          completed(one, *row) && unaided(find_conditions(library, one.attempt_id))});
-  return assessment::expert_set(std::move(experts));
+  return assessment::expert_set_at(row->sight_law, std::move(experts));
 }
 
 base::Result<std::string> set_standard(Library& library, const std::string& case_id, const std::string& lesion_id,

@@ -48,27 +48,27 @@ std::map<std::string, SimulatedTruth> truths_by_person(Library& library) {
 }
 
 // Which of the person's attempts at its case it is: the one that has its seed.
-std::optional<std::uint64_t> number_of(const population::Person& person, std::uint64_t case_key, std::uint64_t seed,
-                                       std::size_t attempts) {
-  for (std::uint64_t number = 0; number < attempts; ++number)
+std::optional<std::uint64_t> number_of(const population::Person& person, std::uint64_t case_key,
+                                       std::uint64_t seed) {
+  constexpr std::uint64_t kMostAttempts = 100'000;  // as many as are made in a session
+  for (std::uint64_t number = 0; number < kMostAttempts; ++number)
     if (population::attempt_seed(person, {case_key, number, 0.0}) == seed) return number;
   return std::nullopt;
 }
 
-// As it was in that attempt, with practice until then. Attempts that were not made as this person's own have none.
+// As it was in that attempt, with practice until then. Earlier ones that are not in the library count as made on
+// the day of the next that is. Attempts that were not made as this person's own have none.
 population::Abilities ability_in(Library& library, const population::Person& person, const AttemptRow& attempt) {
   const std::uint64_t case_key = population::case_key_of(attempt.case_title);
   std::map<std::uint64_t, double> days;  // by number
-  const std::vector<AttemptRow> all = list_bare_attempts_of(library, *attempt.person_id);
-  for (const AttemptRow& one : all)
+  for (const AttemptRow& one : list_bare_attempts_of(library, *attempt.person_id))
     if (one.case_title == attempt.case_title)
-      if (const auto number = number_of(person, case_key, one.seed, all.size()))
+      if (const auto number = number_of(person, case_key, one.seed))
         days.emplace(*number, static_cast<double>(one.started_us) / kDayUs);
-  const auto number = number_of(person, case_key, attempt.seed, all.size());
+  const auto number = number_of(person, case_key, attempt.seed);
   if (!number) return person.ability;
   std::vector<double> before;
-  for (const auto& [other, day] : days)
-    if (other < *number) before.push_back(day);
+  for (std::uint64_t other = 0; other < *number; ++other) before.push_back(days.lower_bound(other)->second);
   return population::ability_on(
       person, {case_key, *number, population::gain_of(person.practice, before, days.at(*number))});
 }

@@ -1,6 +1,7 @@
 #include "casedb/studies/plans.h"
 
 #include <array>
+#include <map>
 #include <span>
 
 #include "casedb/cases/cases.h"
@@ -39,13 +40,18 @@ void check_facts(const study::Plan& plan, std::vector<base::Problem>& wrong) {
 
 // What of the plan is none of the library's or of today's metrics.
 base::Result<void> check_plan(Library& library, const study::Plan& plan) {
-  base::Error error{"bad_study_plan", "the plan is not as it should be", study::problems_of(plan)};
-  check_facts(plan, error.findings);
+  base::Error error{"bad_study_plan", "the plan is not as it should be", {}};
+  std::map<std::string, cases::SightLaw> laws;
   for (const auto* outcomes : {&plan.primary, &plan.secondary})
     for (const study::Outcome& one : *outcomes)
-      if (!find_case(library, one.case_id))
+      if (const auto row = find_case(library, one.case_id))
+        laws.emplace(one.case_id, row->sight_law);
+      else
         error.findings.push_back(
             {"bad_study_plan", "outcome \"" + one.name + "\": the library has no case of that id"});
+  const std::vector<base::Problem> problems = study::problems_of(plan, laws);
+  error.findings.insert(error.findings.begin(), problems.begin(), problems.end());
+  check_facts(plan, error.findings);
   if (!error.findings.empty()) return error;
   return {};
 }

@@ -102,7 +102,7 @@ void add_metrics(Html& html, const Comparison& comparison) {
   add_head(html, comparison, "Metric");
   html.raw("<tbody>\n");
   for (std::size_t i = 0; i < comparison.metrics.size(); ++i) {
-    const assessment::MetricInfo& info = *comparison.metrics[i];
+    const assessment::MetricInfo& info = comparison.metrics[i];
     html.raw("<tr><th scope=\"row\">").add(metric_details(info.id, info.version)).raw("</th>");
     for (const ComparedGroup& group : comparison.groups) {
       html.raw("<td class=\"number\">").text(estimate_text(group.of_metrics[i], info));

@@ -2,6 +2,7 @@
 
 #include "assessment/population/streams.h"
 #include "assessment/score.h"
+#include "casedb/attempts/add_unless.h"
 #include "session/attempt/endpoint_picture.h"
 #include "session/attempt/median_attempt.h"
 #include "session/attempt/ordered_work.h"
@@ -162,10 +163,23 @@ base::Result<void> Simulation::each(const std::vector<SimulatedTrial>& trials, s
   return done;
 }
 
+// Of a simulated person's attempt the one that is there by then: another program may make the same people's.
+base::Result<std::string> Simulation::store_once(const casedb::NewAttempt& made) {
+  std::string there;
+  const auto added = casedb::add_attempt_unless(*library_, made, [&] {
+    if (!made.person_id) return false;
+    for (const casedb::AttemptRow& row : casedb::list_bare_attempts_of(*library_, *made.person_id))
+      if (row.seed == made.seed && was_made_at(row, task_)) there = row.attempt_id;
+    return !there.empty();
+  });
+  if (!added) return added.error();
+  return added->value_or(there);
+}
+
 base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
                                         const std::function<void(SimulatedAttempt)>& stored) {
   return each(trials, jobs, pictures, [&](std::size_t i, casedb::NewAttempt& made) -> base::Result<bool> {
-    const auto attempt_id = casedb::add_attempt(*library_, made);
+    const auto attempt_id = store_once(made);
     if (!attempt_id) return attempt_id.error();
     SimulatedAttempt one{*attempt_id, trials[i].profile.name, trials[i].seed, made.metrics};
     one.person = trials[i].person;

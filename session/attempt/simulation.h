@@ -71,7 +71,8 @@ class Simulation {
                                                 const std::optional<std::string>& person_id);
 
   // Many, on so many threads; stored in their order, so that the result is that of one thread. `stored` is told of
-  // each. Without pictures none of the moment of firing is made.
+  // each. Without pictures none of the moment of firing is made. Of a person's attempt that is there by then
+  // nothing is stored, and that one is told.
   base::Result<void> attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
                               const std::function<void(SimulatedAttempt)>& stored);
   // The same, not stored: as measured, or graded by the case's rule as it is. `made` is told of each by its place
@@ -102,6 +103,7 @@ class Simulation {
   const Task& task() const noexcept { return task_; }
 
  private:
+  base::Result<std::string> store_once(const casedb::NewAttempt& made);
   // Changes nothing, so that threads may make many at once.
   base::Result<casedb::NewAttempt> make(const SimulatedTrial& trial, bool picture) const;
   // Made on so many threads, taken in their order; false or an error: no more of them.

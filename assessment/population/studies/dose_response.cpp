@@ -7,6 +7,7 @@
 #include "assessment/statistics/groups/effect_sizes.h"
 #include "assessment/statistics/ranks.h"
 #include "assessment/statistics/relations/discrimination.h"
+#include "sim/base/exact_math.h"
 
 namespace seldinger::assessment::population {
 namespace {
@@ -78,9 +79,31 @@ struct Moments {
   }
 };
 
+// Of a crowd's values, and of their logarithms where each has one.
+struct Scales {
+  Moments plain, logarithm;
+  bool positive = true;
+  void add(double x) {
+    plain.add(x);
+    positive = positive && x > 0.0;
+    if (positive) logarithm.add(base::exact_log(x));
+  }
+};
+
 std::optional<double> difference_of(const Moments& less, const Moments& more) {
   if (!less.is_normal_enough() || !more.is_normal_enough()) return std::nullopt;
   return (more.mean - less.mean) / std::sqrt((less.second + more.second) / (less.n + more.n - 2.0));
+}
+
+void add_difference(const Scales& less, const Scales& more, MetricResponse& one) {
+  one.d = difference_of(less.plain, more.plain);
+  one.of_logarithms = !one.d && less.positive && more.positive;
+  if (one.of_logarithms) one.d = difference_of(less.logarithm, more.logarithm);
+}
+
+std::vector<double> logarithms_of(std::vector<double> x) {
+  for (double& one : x) one = base::exact_log(one);
+  return x;
 }
 
 // By metric and shift.
@@ -92,8 +115,8 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
   const std::size_t metrics = responses.size();
   std::vector<bool> varies(metrics, false);
   std::vector<std::vector<double>> sums(metrics, std::vector<double>(groups.size())), weights = sums;
-  std::vector<Moments> of_others(metrics);
-  std::vector<std::vector<Moments>> of_shifted(metrics, std::vector<Moments>(groups.size()));
+  std::vector<Scales> of_others(metrics);
+  std::vector<std::vector<Scales>> of_shifted(metrics, std::vector<Scales>(groups.size()));
   for (std::size_t first = 1; first <= options.truth_people; first += kCrowd) {
     const std::size_t past = std::min(first + kCrowd, options.truth_people + 1);
     const Rows base = drawn_people(surrogate, others(), options.seed, kTruthStudy, first, past);
@@ -118,7 +141,7 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
     for (std::size_t s = 0; s < groups.size(); ++s)
       if (weights[m][s] > 0.0) {
         responses[m][s].area = sums[m][s] / weights[m][s];
-        responses[m][s].d = difference_of(of_others[m], of_shifted[m][s]);
+        add_difference(of_others[m], of_shifted[m][s], responses[m][s]);
       }
   return varies;
 }
@@ -131,7 +154,8 @@ void add_study(const Rows& base, const Rows& rows, std::size_t m, MetricResponse
   one.mean_width += (interval.high - interval.low - one.mean_width) / static_cast<double>(one.intervals);
   one.covered += interval.low <= one.area && one.area <= interval.high ? 1U : 0U;
   if (!one.d) return;
-  const auto d = statistics::cohen_d(more, less);
+  const auto d = one.of_logarithms ? statistics::cohen_d(logarithms_of(more), logarithms_of(less))
+                                   : statistics::cohen_d(more, less);
   if (!d.ci95) return;
   ++one.d_intervals;
   one.d_covered += d.ci95->low <= *one.d && *one.d <= d.ci95->high ? 1U : 0U;

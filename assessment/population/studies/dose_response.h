@@ -24,9 +24,11 @@ struct MetricResponse {
   double area = 0.5;                       // P(shifted > others) + ½ P(equal) in the crowd
   std::size_t intervals = 0, covered = 0;  // of the studies: with an interval; it holds `area`
   double mean_width = 0.0;                 // of the intervals
-  // Shifted minus others in pooled standard deviations, in the crowd; nothing where the metric is not normal enough
-  // for it in both groups (skewness within ±0.5, excess kurtosis within ±1).
+  // Shifted minus others in pooled standard deviations, in the crowd, where the metric is normal enough for it in
+  // both groups (skewness within ±0.5, excess kurtosis within ±1); else of its logarithm where that is, and no
+  // value is 0 or less; else nothing.
   std::optional<double> d;
+  bool of_logarithms = false;
   std::size_t d_intervals = 0, d_covered = 0;
   double paired = 0.0;  // Spearman's correlation of people of the same number, kPairs of them
 };

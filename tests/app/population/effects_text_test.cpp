@@ -41,5 +41,31 @@ TEST(PredictedEffects, PracticeIsARatioAndALevelIsANovices) {
   EXPECT_FALSE(predicted(made, row_of("BMC", "complications")).has_value());
 }
 
+TEST(PredictedEffects, AreWithinByFifteenHundredthsOrTheInterval) {
+  SimulatedEffects made = made_up();
+  const auto& path = row_of("Xia", "needle's path");  // 41.1 / 58.0 = .709, of no interval; made up .8
+  EXPECT_EQ(is_within(made, path), true);
+  made.metrics[1].practised = 50.0 * (0.709 + 0.16);
+  EXPECT_EQ(is_within(made, path), false);
+  EXPECT_FALSE(is_within(made, row_of("Xia", "probe's path")).has_value());
+  // .52, with an interval of -.57 to 1.61: 1.5 is far off and within, 1.7 is not.
+  const auto& touch = row_of("table 6.3", "touch was accurate");
+  made.answers[1].difference = 1.5;
+  EXPECT_EQ(is_within(made, touch), true);
+  made.answers[1].difference = 1.7;
+  EXPECT_EQ(is_within(made, touch), false);
+}
+
+// The non-central t distribution's: .652 and .523 (R's pt).
+TEST(PredictedEffects, ThePowerOfStudiesOfThatSizeIsTold) {
+  EXPECT_NEAR(population::selected_of(0.8, 26, 14).power, 0.652, 0.01);
+  EXPECT_NEAR(population::selected_of(0.8, 16, 12).power, 0.523, 0.01);
+  const std::string text = text_of_effects(made_up());
+  EXPECT_NE(
+      text.find("0.8 becomes significant in 65 % of studies of 26 and 14 people and in 52 % of studies of 16"),
+      std::string::npos)
+      << text;
+}
+
 }  // namespace
 }  // namespace seldinger::app

@@ -135,6 +135,17 @@ TEST(RuleTest, EachProblemHasItsCode) {
   EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"unknown_metric"});
   rule.criteria = {*criterion_from("hit@99 >= 1")};
   EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"other_version"});
+  // A draft that was raised to a newer law of sight keeps its rule, and is told what to name.
+  const int newest = find_metric("vis_joint")->version;
+  rule.criteria = {*criterion_from("vis_joint@" + std::to_string(newest - 1) + " >= 0.5")};
+  Guidance pictures{};
+  pictures.manner.modality = cases::Modality::ultrasound;
+  ASSERT_EQ(problems_of(rule, pictures).size(), 1U);
+  EXPECT_EQ(problems_of(rule, pictures)[0].text, "vis_joint is measured by version " + std::to_string(newest) +
+                                                     ", not " + std::to_string(newest - 1) +
+                                                     ": name that one, and see whether the limit still fits");
+  pictures.sight_law = cases::SightLaw::echo;
+  EXPECT_TRUE(problems_of(rule, pictures).empty());
   rule.criteria = {*criterion_from("dap <= 1")};
   EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"not_meaningful"});
 }

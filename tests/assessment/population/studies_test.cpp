@@ -82,9 +82,13 @@ TEST(SimulatedStudies, IntervalsOfEveryMetricHoldWhatIsTrueOfIt) {
     }
     // Time is normal, 60 − 8 strategy + noise, and of no ability; distance is log-normal, a count no normal number.
     for (const MetricResponse& at : one.responses) {
-      EXPECT_EQ(at.d.has_value(), one.metric == "time_total") << one.metric;
+      const bool is_distance = one.metric == "tip_target_dist";
+      EXPECT_EQ(at.d.has_value(), is_distance || one.metric == "time_total") << one.metric;
       if (!at.d) continue;
-      EXPECT_NEAR(*at.d, 0.0, 5.0 * std::sqrt(2.0 / 45'000.0));
+      EXPECT_EQ(at.of_logarithms, is_distance);
+      const bool differs = is_distance && &at != &one.responses[0];
+      EXPECT_NEAR(*at.d, differs ? -0.32 / std::sqrt(0.16 * 1.107 + 0.36) : 0.0,
+                  5.0 * std::sqrt(2.0 / 45'000.0) + (differs ? 0.03 : 0.0));
       ASSERT_EQ(at.d_intervals, kStudies);
       EXPECT_NEAR(static_cast<double>(at.d_covered) / static_cast<double>(at.d_intervals), 0.95,
                   0.015 + three_errors(0.95, kStudies));

@@ -98,6 +98,32 @@ TEST(Surrogate, AShareThatPassesAMarkIsNoJump) {
   EXPECT_LT(agreement.quantile_own_sd, 0.2);
 }
 
+// Between two kinds of attempts lies nothing: whether 8 or 12 of 100 are of the rarer one moves the quantile of 90
+// % from one kind to the other, and is chance all the same; 30 are not.
+TEST(Surrogate, AGapBesideAQuantileIsNoFault) {
+  const auto held = [](std::size_t of_100, std::size_t count) {
+    std::vector<SimulatedPoint> points = attempts_of({0.0}, 1, count);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (std::size_t m = 0; m < points[p].values.size(); ++m)
+        points[p].values[m] =
+            known_mark().metrics[m].id == "time_total"
+                ? std::optional((p * 37 % 100 < of_100 ? 260.0 : 60.0) + 0.01 * static_cast<double>(p % 97))
+                : std::nullopt;
+    return points;
+  };
+  const auto checked = [&](std::size_t of_100) {
+    return agreement_of(*Surrogate::fit(known_mark(), held(of_100, 1000)), held(8, 500), 20, 3);
+  };
+  const auto right = checked(12), wrong = checked(30);
+  EXPECT_GT(right.metrics.at(0).quantile_sd, 2.0) << "from one kind to the other";
+  // Of the share of .9 where .88 and .7 were to be: 2 √500 (asin √.9 − asin √.88), with √500/√10000 of it by
+  // chance.
+  EXPECT_NEAR(right.metrics.at(0).quantile_errors, 1.43, 0.9);
+  EXPECT_EQ(right.quantiles_beyond_chance, 0U);
+  EXPECT_NEAR(wrong.metrics.at(0).quantile_errors, 11.5, 0.9);
+  EXPECT_GT(wrong.furthest_errors, 8.0);
+}
+
 // E ln distance is .5 − .4 E θ: between the shifts it falls by .4 times the shift.
 TEST(Surrogate, FollowsAbilityByTheRightAmount) {
   const std::size_t distance = fitted().index_of("tip_target_dist");
@@ -193,6 +219,11 @@ TEST(Surrogate, AnyDifferenceOfItsMarkIsTold) {
   EXPECT_NE(difference(other, mark), "");
   EXPECT_NE(difference(mark, mark_of_today(kStep + 1, "case-1", "Ball", "x")), "");
   EXPECT_NE(difference(mark, mark_of_today(kStep, "case-1", "Ball", "y")), "");
+  // At a case of an older law of sight what is told by sight is of its version.
+  other = mark_of_today(kStep, "case-1", "Ball", "x", cases::SightLaw::echo);
+  EXPECT_NE(difference(mark, other), "");
+  const std::size_t sight = fitted().index_of("vis_joint");
+  EXPECT_EQ(other.metrics.at(sight).version, mark.metrics.at(sight).version - 1);
   other = mark;
   ++other.people_version;
   EXPECT_NE(difference(mark, other), "");

@@ -106,6 +106,29 @@ TEST(Plan, EverythingThatIsWrongIsSaid) {
   EXPECT_GE(plan_from_json("{}").error().findings.size(), 8U) << "all at once";
 }
 
+// At a case of an older law of sight what is told by sight is measured by an older version.
+TEST(Plan, VersionsAreThoseOfTheCasesLawOfSight) {
+  const int newest = find_metric("vis_joint")->version;
+  const auto of_version = [&](int version) {
+    Plan plan = sample_plan();
+    plan.primary[0].metric = "vis_joint";
+    plan.primary[0].version = version;
+    plan.primary[0].better = find_metric("vis_joint")->direction;
+    return plan;
+  };
+  const auto is_refused = [](const Plan& plan, cases::SightLaw law) {
+    const auto problems = problems_of(plan, {{plan.primary[0].case_id, law}});
+    return std::any_of(problems.begin(), problems.end(), [](const base::Problem& one) {
+      return one.text.find("primary[0].version is not the one that is measured now at that case") == 0;
+    });
+  };
+  EXPECT_FALSE(is_refused(of_version(newest), cases::SightLaw::scatter));
+  EXPECT_TRUE(is_refused(of_version(newest - 1), cases::SightLaw::scatter));
+  EXPECT_TRUE(is_refused(of_version(newest), cases::SightLaw::echo));
+  EXPECT_FALSE(is_refused(of_version(newest - 1), cases::SightLaw::echo));
+  EXPECT_FALSE(is_refused(of_version(newest - 2), cases::SightLaw::half_slice));
+}
+
 // What is not asked for is not in the canonical text: plans of before keep their hash.
 TEST(Plan, ImputationStandsInItsTextWhereItIsAskedFor) {
   EXPECT_THAT(canonical_json(sample_plan()), Not(HasSubstr("imput")));

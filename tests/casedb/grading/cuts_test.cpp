@@ -48,6 +48,21 @@ class CutsTest : public GradedLibrary {
   std::string proposed(const std::string& by = "Mona") { return propose_cut(library_, new_cut(), by).value(); }
 };
 
+TEST_F(CutsTest, AreOfTheVersionThatIsMeasuredAtTheCase) {
+  const int newest = assessment::find_metric("vis_joint")->version;
+  NewCut of_sight = new_cut();
+  of_sight.metric_id = "vis_joint";
+  ASSERT_TRUE(propose_cut(library_, of_sight, "Mona"));
+  EXPECT_EQ(list_cuts(library_, case_id_).at(0).version, newest);
+  library_.database().run("DROP TRIGGER training_case_keeps_its_sight_law");
+  library_.database().run("UPDATE training_case SET sight_law = 'echo'");
+  ASSERT_TRUE(propose_cut(library_, of_sight, "Mona"));
+  const auto cuts = list_cuts(library_, case_id_);
+  ASSERT_EQ(cuts.size(), 2U);
+  EXPECT_EQ(std::min(cuts[0].version, cuts[1].version), newest - 1);
+  EXPECT_EQ(std::max(cuts[0].version, cuts[1].version), newest);
+}
+
 TEST_F(CutsTest, AreProposedWithTheirDataAndTheMetricsBetterSide) {
   const std::string id = proposed();
   const auto cuts = list_cuts(library_, case_id_);

@@ -364,7 +364,7 @@ TEST_F(GradingTest, SideBySideIsAmongThoseWhoPerformedTheProcedure) {
   EXPECT_EQ(group.gradable, 3U);
   const auto of = [&](const std::string& id) {
     const auto found =
-        std::find_if(side.metrics.begin(), side.metrics.end(), [&](const auto* one) { return one->id == id; });
+        std::find_if(side.metrics.begin(), side.metrics.end(), [&](const auto& one) { return one.id == id; });
     EXPECT_NE(found, side.metrics.end()) << id;
     return group.of_metrics.at(static_cast<std::size_t>(found - side.metrics.begin()));
   };
@@ -375,6 +375,41 @@ TEST_F(GradingTest, SideBySideIsAmongThoseWhoPerformedTheProcedure) {
   EXPECT_EQ(of("skin_punctures").n, 2U);
   EXPECT_EQ(of("skin_punctures").low, 1.0);
   EXPECT_EQ(of("skin_punctures").one.estimate, 1.0);  // before: 2/3
+}
+
+// A case of an older law of sight: its attempts have older versions of what is told by sight, and no newer one
+// comes.
+TEST_F(GradingTest, AnOlderLawOfSightHasItsOwnVersions) {
+  library_.database().run("DROP TRIGGER training_case_keeps_its_sight_law");
+  library_.database().run("UPDATE training_case SET sight_law = 'echo'");
+  rule({"hit >= 1"});
+  const int newest = assessment::find_metric("vis_joint")->version;
+  for (int i = 0; i < 8; ++i) {
+    const std::string person = consultant("Consultant " + std::to_string(i));
+    for (int k = 0; k < 5; ++k) {
+      NewAttempt made = new_attempt(person, 1.0, 20.0);
+      made.metrics.push_back({"vis_joint", newest - 1, 0.1 * i, "share", ""});
+      static_cast<void>(add_attempt(library_, made).value());
+    }
+  }
+  const Comparison side = compare_attempts(library_, case_id_).value();
+  const auto shown = std::find_if(side.metrics.begin(), side.metrics.end(),
+                                  [](const auto& one) { return std::string_view(one.id) == "vis_joint"; });
+  ASSERT_NE(shown, side.metrics.end());
+  EXPECT_EQ(shown->version, newest - 1);
+  EXPECT_EQ(side.groups.at(0).of_metrics.at(static_cast<std::size_t>(shown - side.metrics.begin())).n, 5U);
+  user("Dora", Role::director);
+  ASSERT_TRUE(set_one());
+  const auto set = standard_of(library_, task());
+  ASSERT_TRUE(set.has_value());
+  EXPECT_NE(set->find("vis_joint", newest - 1), nullptr);
+  EXPECT_EQ(set->find("vis_joint", newest), nullptr);
+  // Of the newest law these attempts were not measured.
+  library_.database().run("UPDATE training_case SET sight_law = 'scatter'");
+  const Comparison newer = compare_attempts(library_, case_id_).value();
+  EXPECT_TRUE(std::none_of(newer.metrics.begin(), newer.metrics.end(),
+                           [](const auto& one) { return std::string_view(one.id) == "vis_joint"; }));
+  EXPECT_EQ(consultants_of(library_, task()).find("vis_joint", newest - 1), nullptr);
 }
 
 }  // namespace

@@ -142,6 +142,42 @@ TEST_F(SimulatedAnswersTest, RatersSendWhatTheirSeveritySeesOfTheAbilityThen) {
   EXPECT_EQ(simulate_answers(library_, opened.round.code, 9)->there, ratings->asked);
 }
 
+// Of somebody's six attempts the last alone is left: the five before it were practice all the same, on that day at
+// the latest.
+TEST_F(SimulatedAnswersTest, WhatIsMissingWasPractice) {
+  const auto person = population::drawn_person(*population::named_group("novice"), 3, 40);
+  const std::vector<double> days(5, 0.0);
+  const population::Occasion occasion{population::case_key_of(sample_case().title), 5,
+                                      population::gain_of(person.practice, days, 0.0)};
+  ASSERT_GT(occasion.gain, 0.1);
+  NewAttempt last = sample_attempt(case_id_, lesion_id_);
+  last.person_id = simulated_person(library_, person, 3);
+  last.seed = population::attempt_seed(person, occasion);
+  NewRatingRound asked;
+  asked.round = {.title = "The last", .form_id = "osats-grs"};
+  asked.replays = {{add_attempt(library_, last).value(), "<section></section>"}};
+  asked.raters = asked.each = 9;  // all of them
+  const auto opened = open_rating_round(library_, asked);
+  ASSERT_TRUE(opened.has_value()) << opened.error().code;
+  ASSERT_TRUE(simulate_answers(library_, opened->round.code, 9));
+  const auto ratings = list_ratings(library_, opened->round.code);
+  ASSERT_TRUE(ratings.has_value());
+  std::size_t seen = 0;
+  for (const SentRating& one : ratings->ratings)
+    for (const assessment::questionnaire::Item& item : ratings->form.form.items) {
+      if (item.kind != assessment::questionnaire::ItemKind::scale) continue;
+      const auto rater = population::drawn_rater(9, static_cast<std::uint64_t>(one.rater.at(1) - '0'));
+      const auto point = [&](const population::Abilities& ability) {
+        return 1.0 +
+               static_cast<double>(population::rated_point(rater, person, ability, item.text, one.number - 1, 5));
+      };
+      const double with_practice = point(population::ability_on(person, occasion));
+      EXPECT_EQ(one.answers.at(item.id).value, with_practice) << one.rater << " " << item.id;
+      seen += with_practice != point(person.ability) ? 1U : 0U;
+    }
+  EXPECT_GT(seen, 0U) << "somebody sees the practice";
+}
+
 TEST_F(SimulatedAnswersTest, PeopleAreNotAnsweredFor) {
   EXPECT_EQ(simulate_answers(library_, questionnaire_round({}).code, 1).error().code, "nobody_simulated");
   EXPECT_EQ(simulate_answers(library_, "XXXXXX", 1).error().code, "no_round");

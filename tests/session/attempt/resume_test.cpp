@@ -14,6 +14,7 @@
 #include "session/attempt/interrupted_attempt.h"
 #include "session/attempt/replayed_attempt.h"
 #include "session/attempt/simulated_attempt.h"
+#include "session/attempt/simulated_people.h"
 #include "session/attempt/simulation.h"
 #include "sim/engine/step.h"
 #include "sim/volume/analytic.h"
@@ -225,6 +226,26 @@ TEST_F(ResumeTest, AnAttemptAtAnotherTaskIsNotGoneOnWith) {
   ASSERT_TRUE(other);
   EXPECT_EQ(other->resume(std::move(*interrupted), *assessment::named_profile("novice")).error().code,
             "other_case");
+}
+
+// Two programs look what is there, and then both make it.
+TEST_F(ResumeTest, OfTwoRunsOfTheSamePeopleOneStoresAnAttempt) {
+  const PeopleWish wish{*assessment::population::named_group("novice"), 5, 2};
+  casedb::Library one = open(), other = open();
+  auto first = Simulation::prepare(one, app::this_program(), case_id_, "");
+  auto second = Simulation::prepare(other, app::this_program(), case_id_, "");
+  ASSERT_TRUE(first && second);
+  const StoredPeople asked = people_trials(one, wish, first->task()),
+                     again = people_trials(other, wish, second->task());
+  ASSERT_EQ(asked.trials.size(), 2U);
+  ASSERT_EQ(again.trials.size(), 2U) << "none was there yet";
+  std::vector<SimulatedAttempt> made, told;
+  ASSERT_TRUE(first->attempts(asked.trials, 1, false, [&](SimulatedAttempt a) { made.push_back(std::move(a)); }));
+  ASSERT_TRUE(second->attempts(again.trials, 1, false, [&](SimulatedAttempt a) { told.push_back(std::move(a)); }));
+  EXPECT_EQ(casedb::count_attempts(one), 2U);
+  ASSERT_EQ(told.size(), 2U);
+  for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i].attempt_id, made[i].attempt_id);
+  EXPECT_EQ(people_trials(one, wish, first->task()).there.size(), 2U);
 }
 
 }  // namespace
