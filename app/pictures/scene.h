@@ -44,6 +44,7 @@ struct UltrasoundSceneView {
   imaging::UltrasoundKnobs knobs;
   imaging::DisplaySize size;
   UltrasoundOutput output = UltrasoundOutput::display;
+  double colour_mm_s = 0.0, colour_t_s = 0.0;  // of colour Doppler: the speed at which it wraps, 0: off; when
 };
 using View = std::variant<imaging::MprView, XrayView, UltrasoundSceneView>;
 

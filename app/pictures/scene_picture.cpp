@@ -6,11 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "app/pictures/xray_sight.h"
+#include "app/replay/png.h"
 #include "casedb/import/skin/surface.h"
 #include "session/guidance/frame_truth.h"
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
@@ -20,6 +22,7 @@
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection/coarse.h"
+#include "sim/tissue/blood_flow.h"
 
 namespace seldinger::app {
 namespace {
@@ -153,6 +156,12 @@ unsigned char grey_of_db(float db) {
 
 }  // namespace
 
+std::vector<std::byte> png_of(const ScenePicture& picture) {
+  const int width = picture.plane.width_px, height = picture.plane.height_px;
+  return picture.rgb.empty() ? png_from_grey(picture.grey, width, height)
+                             : png_from_rgb(picture.rgb, width, height);
+}
+
 void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
                                     const tissue::Displacement& displacement, ScenePicture& picture) const {
   const imaging::UltrasoundView& view = scene.view;
@@ -214,6 +223,23 @@ void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imag
   }
   picture.unit = "grey";
   picture.values.assign(picture.grey.begin(), picture.grey.end());
+}
+
+void ScenePainter::paint_colour(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
+                                std::span<const cases::Structure> structures,
+                                const tissue::Displacement& displacement, ScenePicture& picture) const {
+  // A scene's structures are told by their names.
+  std::vector<cases::Structure> vessels(structures.begin(), structures.end());
+  for (cases::Structure& one : vessels) one.tissue = volume::TissueClass::vessel;
+  const tissue::BloodFlow flow(vessels);
+  imaging::ColourPicture colour;
+  imaging::colour_polar({&volume_, tissue_->classes, tissue_->echogenicity}, scene.view, inserted,
+                        session::element_depths(tissue_->skin, scene.view, 1, displacement), flow,
+                        scene.colour_mm_s, scene.colour_t_s, colour, displacement);
+  std::vector<unsigned char> numbers;
+  imaging::colour_numbers(imaging::ScanConverter(scene.view, scene.size), scene.knobs, colour, numbers);
+  picture.rgb = imaging::in_colour(picture.grey, numbers);
+  picture.colour_mm_s = colour.scale_mm_s;
 }
 
 base::Result<ScenePainter> ScenePainter::of(const Scene& scene, const std::string& library) {
@@ -281,7 +307,10 @@ base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::st
   } else {
     imaging::Inserted inserted = scene.inserted;
     imaging::settle_lesions(volume_, tissue_->classes, tissue_->echogenicity, inserted.lesions);
-    paint_ultrasound(std::get<UltrasoundSceneView>(*scene.view), inserted, displacement_of(scene), picture);
+    const auto& view = std::get<UltrasoundSceneView>(*scene.view);
+    const tissue::Displacement displacement = displacement_of(scene);
+    paint_ultrasound(view, inserted, displacement, picture);
+    if (view.colour_mm_s > 0.0) paint_colour(view, inserted, scene.structures, displacement, picture);
   }
   return picture;
 }
