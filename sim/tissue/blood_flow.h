@@ -1,5 +1,5 @@
 // How blood flows in the vessels whose axis and direction are known, which colour Doppler shows: along the axis, by
-// a parabola across, in arteries with the heart's beat (docs/decisions/0085).
+// a parabola across, in arteries with the heart's beat, which their walls follow (docs/decisions/0085).
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,6 +10,7 @@
 
 #include "sim/case/needle_flow.h"
 #include "sim/case/structure.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::tissue {
 
@@ -30,6 +31,9 @@ const FlowLaw* flow_law_of(volume::TissueClass tissue, std::string_view name) no
 // In the vessel's middle, along its axis, at a time; at 0 a beat begins.
 double middle_speed_mm_s(const FlowLaw& law, double t_s) noexcept;
 
+// How much wider an artery is than when a beat begins, as a share of its diameter; 0 of a vein.
+double pulse_share(const FlowLaw& law, double t_s) noexcept;
+
 class BloodFlow {
  public:
   BloodFlow() = default;
@@ -39,6 +43,12 @@ class BloodFlow {
   // Of blood at a place of the patient at rest; none outside of its vessels. What was drawn last lies over what was
   // drawn before.
   glm::dvec3 velocity_mm_s(const glm::dvec3& rest_lps_mm, double t_s) const noexcept;
+
+  // With what the beat adds to a displacement about a place: each artery near it, and what lies on that, by its
+  // straight piece that is nearest. The same where there is none.
+  Displacement with_pulse(const Displacement& displacement, const glm::dvec3& about_lps_mm,
+                          double t_s) const noexcept;
+  bool pulsates() const noexcept;  // it has an artery
 
   bool empty() const noexcept { return vessels_.empty(); }
   std::vector<std::string> names() const;                            // of vessels that show colour

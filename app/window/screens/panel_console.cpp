@@ -9,6 +9,7 @@
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "session/guidance/ultrasound_sight.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::app {
@@ -18,7 +19,7 @@ struct TurningKey {
   int key;
   ConsoleTurn turn;
 };
-constexpr std::array<TurningKey, 13> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
+constexpr std::array<TurningKey, 14> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
                                                          {kDown, ConsoleTurn::depth_more},
                                                          {'[', ConsoleTurn::focus_less},
                                                          {']', ConsoleTurn::focus_more},
@@ -30,6 +31,7 @@ constexpr std::array<TurningKey, 13> kUltrasoundKeys = {{{kUp, ConsoleTurn::dept
                                                          {'\'', ConsoleTurn::range_more},
                                                          {'B', ConsoleTurn::next_map},
                                                          {'X', ConsoleTurn::flip},
+                                                         {'V', ConsoleTurn::colour},
                                                          {'C', ConsoleTurn::next_preset}}};
 constexpr std::array<TurningKey, 3> kSliceKeys = {
     {{kUp, ConsoleTurn::slice_back}, {kDown, ConsoleTurn::slice_on}, {'C', ConsoleTurn::next_window}}};
@@ -155,6 +157,19 @@ bool MonitorPanel::draw_beam_knobs(float wide) {
   if (knob("##frequency", frequency_mhz, view.probe.least_mhz, view.probe.most_mhz, "%.1f MHz", 0.20F * wide))
     knobs_.set_frequency_mhz(0.1 * std::round(10.0 * frequency_mhz));
   tip("frequency (, .): high resolves, low goes deep");
+  ImGui::SameLine();
+  bool colour = knobs_.asked().colour_mm_s > 0.0;
+  if (ImGui::Checkbox("colour", &colour)) knobs_.turn(ConsoleTurn::colour, false);
+  note_item("colour");
+  tip(colour_words_.c_str());
+  if (colour) {
+    ImGui::SameLine();
+    double scale_cm_s = 0.1 * knobs_.asked().colour_mm_s;
+    if (knob("##scale", scale_cm_s, 0.1 * imaging::kLeastColourMmS, 0.1 * imaging::most_colour_mm_s(view),
+             "± %.0f cm/s", 0.14F * wide))
+      knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));
+    tip("the speed at which colours wrap around; a deeper picture allows less");
+  }
   return turned;
 }
 

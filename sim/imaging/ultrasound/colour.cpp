@@ -89,7 +89,6 @@ void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const 
     for (int row = 0; row < kBoxRows; ++row) {
       const double depth_mm = box.from_mm + (row + 0.5) * row_mm;
       const glm::dvec3 rest = path.at(depth_mm);
-      if (tissue_at(rest) != volume::TissueClass::vessel) continue;
       const double towards_mm_s = -glm::dot(flow.velocity_mm_s(rest, t_s), direction);
       if (towards_mm_s == 0.0) continue;
       if (!walked) walker.walk(beam, true, line);

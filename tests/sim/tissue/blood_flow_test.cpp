@@ -71,6 +71,46 @@ TEST(BloodFlow, BeatsInArteriesOnly) {
   EXPECT_EQ(middle_speed_mm_s(vein, 0.1), middle_speed_mm_s(vein, 0.7));
 }
 
+// What lies at the wall moves with it, what lies further out less, so that areas around stay what they were.
+TEST(BloodFlow, WidensArteriesWithTheBeatAndWhatLiesOnThem) {
+  const std::vector<cases::Structure> neck = {tube("carotid", {0, 0, -80}, {0, 0, 80}, 3.5),
+                                              tube("jugular_vein", {15, 0, -80}, {15, 0, 80}, 6.0)};
+  const BloodFlow flow(neck);
+  EXPECT_TRUE(flow.pulsates());
+  const Displacement still{};
+  EXPECT_EQ(count_sources(flow.with_pulse(still, {0, 0, 5}, 0.0)), 0) << "a beat begins with the CT's";
+  double widest = 0.0;
+  for (double t_s = 0.02; t_s < kBeatS; t_s += 0.02) {
+    const double wider = pulse_share(*flow_law_of(TissueClass::vessel, "carotid"), t_s);
+    widest = std::max(widest, wider);
+    const Displacement moved = flow.with_pulse(still, {0, 0, 5}, t_s);
+    ASSERT_EQ(count_sources(moved), 1) << "the vein does not";
+    EXPECT_NEAR(displaced(moved, {0.0, 3.5, 5.0}).y, 3.5 * (1.0 + wider), 1e-5);
+    const double out_mm = displaced(moved, {0.0, -9.0, 5.0}).y;
+    EXPECT_NEAR(out_mm * out_mm, 81.0 + 3.5 * 3.5 * ((1.0 + wider) * (1.0 + wider) - 1.0), 1e-4);
+    EXPECT_NEAR(glm::length(rest_of(moved, displaced(moved, {2.0, 4.0, 0.0})) - glm::dvec3(2.0, 4.0, 0.0)), 0.0,
+                1e-3);
+  }
+  EXPECT_GE(widest, 0.05) << "of a carotid's diameter";
+  EXPECT_LE(widest, 0.13);
+  EXPECT_EQ(count_sources(flow.with_pulse(still, {0, 0, 300}, 0.2)), 0) << "far away";
+  const std::vector<cases::Structure> vein = {neck[1]};
+  EXPECT_FALSE(BloodFlow(vein).pulsates());
+  // Beside what moves it otherwise: the kinds keep their order, and breath comes last.
+  Displacement breathing{};
+  breathing.breath_end = 1;
+  breathing.source[0].amount.x = 7.0F;
+  const Displacement both = flow.with_pulse(breathing, {0, 0, 5}, 0.2);
+  EXPECT_EQ(both.shaft_end, 0);
+  EXPECT_EQ(both.vein_end, 1);
+  EXPECT_EQ(both.breath_end, 2);
+  EXPECT_EQ(both.source[1].amount.x, 7.0F);
+  // No more than there is room for.
+  Displacement full{};
+  full.vein_end = full.breath_end = shaders::kMostDisplacementSources;
+  EXPECT_EQ(count_sources(flow.with_pulse(full, {0, 0, 5}, 0.2)), shaders::kMostDisplacementSources);
+}
+
 TEST(BloodFlow, SaysOfWhichVesselsItKnowsNothing) {
   std::vector<cases::Structure> scene = {tube("carotid", {0, 0, 0}, {0, 0, 50}),
                                          tube("vessel 3", {9, 0, 0}, {9, 0, 50}),
