@@ -149,6 +149,13 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
   }
 }
 
+// A scene's structures are told by their names.
+tissue::BloodFlow flow_of(std::span<const cases::Structure> structures) {
+  std::vector<cases::Structure> vessels(structures.begin(), structures.end());
+  for (cases::Structure& one : vessels) one.tissue = volume::TissueClass::vessel;
+  return tissue::BloodFlow(vessels);
+}
+
 // Of levels that nothing was added to: liver at the face is white, 128 dB below it black.
 unsigned char grey_of_db(float db) {
   return static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F));
@@ -226,16 +233,13 @@ void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imag
 }
 
 void ScenePainter::paint_colour(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
-                                std::span<const cases::Structure> structures,
+                                std::span<const cases::Structure> structures, double beat_s,
                                 const tissue::Displacement& displacement, ScenePicture& picture) const {
-  // A scene's structures are told by their names.
-  std::vector<cases::Structure> vessels(structures.begin(), structures.end());
-  for (cases::Structure& one : vessels) one.tissue = volume::TissueClass::vessel;
-  const tissue::BloodFlow flow(vessels);
+  const tissue::BloodFlow flow = flow_of(structures);
   imaging::ColourPicture colour;
   imaging::colour_polar({&volume_, tissue_->classes, tissue_->echogenicity}, scene.view, inserted,
                         session::element_depths(tissue_->skin, scene.view, 1, displacement), flow,
-                        scene.colour_mm_s, scene.colour_t_s, colour, displacement);
+                        scene.colour_mm_s, beat_s, colour, displacement);
   std::vector<unsigned char> numbers;
   imaging::colour_numbers(imaging::ScanConverter(scene.view, scene.size), scene.knobs, colour, numbers);
   picture.rgb = imaging::in_colour(picture.grey, numbers);
@@ -291,7 +295,12 @@ tissue::Displacement ScenePainter::displacement_of(const Scene& scene) const {
                              .radius_mm = needle->radius_mm,
                              .cut_mm = entry->distance_mm,
                              .shaft_mm = motion.drag_mm};
-  return tissue::displacement_of(causes);
+  const tissue::Displacement moved = tissue::displacement_of(causes);
+  const auto* ultrasound = std::get_if<UltrasoundSceneView>(&*scene.view);
+  if (ultrasound == nullptr) return moved;
+  const imaging::UltrasoundView& view = ultrasound->view;
+  return flow_of(scene.structures)
+      .with_pulse(moved, view.origin_lps_mm + 0.5 * view.depth_mm * view.axial, motion.beat_s);
 }
 
 base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::string& backend) {
@@ -310,7 +319,9 @@ base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::st
     const auto& view = std::get<UltrasoundSceneView>(*scene.view);
     const tissue::Displacement displacement = displacement_of(scene);
     paint_ultrasound(view, inserted, displacement, picture);
-    if (view.colour_mm_s > 0.0) paint_colour(view, inserted, scene.structures, displacement, picture);
+    if (view.colour_mm_s > 0.0)
+      paint_colour(view, inserted, scene.structures, scene.motion ? scene.motion->beat_s : 0.0, displacement,
+                   picture);
   }
   return picture;
 }

@@ -56,8 +56,8 @@ class ScenePainter {
   void paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
                         const tissue::Displacement& displacement, ScenePicture& picture) const;
   void paint_colour(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
-                    std::span<const cases::Structure> structures, const tissue::Displacement& displacement,
-                    ScenePicture& picture) const;
+                    std::span<const cases::Structure> structures, double beat_s,
+                    const tissue::Displacement& displacement, ScenePicture& picture) const;
 
   volume::Volume volume_;
   std::string library_;

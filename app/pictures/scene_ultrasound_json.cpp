@@ -108,7 +108,6 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, bas
   if (reader.has("colour") && reader["colour"].is_object()) {
     SceneReader colour(reader["colour"], "view.colour", error);
     scene.colour_mm_s = 10.0 * colour.number("scale_cm_s", 2.0, 500.0);
-    scene.colour_t_s = colour.number("t_s", 0.0, 1e4, 0.0);
     colour.unused(unused);
     if (scene.output != UltrasoundOutput::display) reader.bad("colour", "is of a display");
   } else if (reader.has("colour") && !reader["colour"].is_null()) {

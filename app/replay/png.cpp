@@ -10,7 +10,7 @@ namespace {
 
 // `palette`: of the pixels, which are its numbers; empty: they are greys or colours.
 std::vector<std::byte> encoded(std::span<const unsigned char> pixels, int width_px, int height_px,
-                              png_uint_32 format, std::span<const unsigned char> palette = {}) {
+                               png_uint_32 format, std::span<const unsigned char> palette = {}) {
   CHECK(width_px > 0 && height_px > 0);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

@@ -157,20 +157,22 @@ bool MonitorPanel::draw_beam_knobs(float wide) {
   if (knob("##frequency", frequency_mhz, view.probe.least_mhz, view.probe.most_mhz, "%.1f MHz", 0.20F * wide))
     knobs_.set_frequency_mhz(0.1 * std::round(10.0 * frequency_mhz));
   tip("frequency (, .): high resolves, low goes deep");
-  ImGui::SameLine();
+  return turned;
+}
+
+void MonitorPanel::draw_colour_knobs(float wide) {
   bool colour = knobs_.asked().colour_mm_s > 0.0;
   if (ImGui::Checkbox("colour", &colour)) knobs_.turn(ConsoleTurn::colour, false);
   note_item("colour");
   tip(colour_words_.c_str());
-  if (colour) {
-    ImGui::SameLine();
-    double scale_cm_s = 0.1 * knobs_.asked().colour_mm_s;
-    if (knob("##scale", scale_cm_s, 0.1 * imaging::kLeastColourMmS, 0.1 * imaging::most_colour_mm_s(view),
-             "± %.0f cm/s", 0.14F * wide))
-      knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));
-    tip("the speed at which colours wrap around; a deeper picture allows less");
-  }
-  return turned;
+  ImGui::SameLine();
+  if (!colour) return;
+  double scale_cm_s = 0.1 * knobs_.asked().colour_mm_s;
+  if (knob("##scale", scale_cm_s, 0.1 * imaging::kLeastColourMmS, 0.1 * imaging::most_colour_mm_s(knobs_.view()),
+           "± %.0f cm/s", 0.19F * wide))
+    knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));
+  tip("the speed at which colours wrap around; a deeper picture allows less");
+  ImGui::SameLine();
 }
 
 bool MonitorPanel::draw_screen_knobs(float wide) {
@@ -223,10 +225,13 @@ void MonitorPanel::draw_ultrasound(session::Monitor& monitor, bool frozen, bool 
   if (turned) tell(monitor);
 
   if (two_rows) ImGui::SameLine();
+  ImGui::BeginDisabled(frozen || !turns);
+  draw_colour_knobs(wide);
+  ImGui::EndDisabled();
   // Cine, as long as the picture is frozen.
   ImGui::BeginDisabled(!frozen || shown_.cine_pictures < 2);
   int back = -shown_.cine_back;
-  ImGui::SetNextItemWidth(0.32F * wide);
+  ImGui::SetNextItemWidth(0.17F * wide);
   if (ImGui::SliderInt("##cine", &back, -std::max(1, shown_.cine_pictures - 1), 0, "cine %d"))
     monitor.set_console([back](imaging::Console& console) { console.scroll(-back); });
   ImGui::EndDisabled();

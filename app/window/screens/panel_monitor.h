@@ -61,6 +61,7 @@ class MonitorPanel {
   void draw_ultrasound(session::Monitor& monitor, bool frozen, bool turns);
   bool draw_beam_knobs(float wide);    // preset, depth, focus, frequency; true: another preset
   bool draw_screen_knobs(float wide);  // gain, range, grey map, flip, time gain; true: turned
+  void draw_colour_knobs(float wide);  // on or off, and its scale
   void draw_slices(session::Monitor& monitor, bool frozen, bool turns);
   void read_fluoroscope(const Keys& keys, cases::FluoroscopeInputs& asked) const;
   void expose_automatically(bool automatic, cases::FluoroscopeInputs& asked) const;

@@ -50,15 +50,14 @@ TEST(Scene, MayShowFlowInColour) {
                                colour + "}}",
                            ".", unused);
   };
-  const auto scene = with(R"({"scale_cm_s": 25, "t_s": 0.5})");
+  const auto scene = with(R"({"scale_cm_s": 25})");
   ASSERT_TRUE(scene.has_value()) << scene.error().text;
   EXPECT_TRUE(unused.empty());
   EXPECT_EQ(std::get<UltrasoundSceneView>(*scene->view).colour_mm_s, 250.0);
-  EXPECT_EQ(std::get<UltrasoundSceneView>(*scene->view).colour_t_s, 0.5);
   const auto off = with("null");  // as a sheet's column turns it off
   ASSERT_TRUE(off.has_value());
   EXPECT_EQ(std::get<UltrasoundSceneView>(*off->view).colour_mm_s, 0.0);
-  for (const char* colour : {"true", "{}", R"({"scale_cm_s": 0})", R"({"scale_cm_s": 25, "t_s": -1})"})
+  for (const char* colour : {"true", "{}", R"({"scale_cm_s": 0})"})
     EXPECT_FALSE(with(colour).has_value()) << colour;
   EXPECT_FALSE(with(R"({"scale_cm_s": 25}, "output": "polar_db")").has_value());
 }
