@@ -14,6 +14,12 @@
 namespace seldinger::app {
 namespace {
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string words;
+  for (const std::string& one : names) words += (words.empty() ? "" : ", ") + one;
+  return words.empty() ? "no vessel" : words;
+}
+
 int run_case_explain(const Arguments& arguments) {
   std::optional<std::filesystem::path> sheet;
   if (arguments.has("--sheet")) sheet = file_of("--sheet", arguments.required("--sheet"), {".png"});
@@ -51,6 +57,9 @@ int run_case_explain(const Arguments& arguments) {
                   ? ": pictures include what the patient scatters; a narrower field is clearer"
                   : ": pictures leave out what the patient scatters");
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
+  if (row->modality == cases::Modality::ultrasound)
+    std::printf("colour Doppler   flow in %s; not known in %s\n", listed(needs.flowing).c_str(),
+                listed(needs.unknown_flow).c_str());
   if (needs.displacement_bytes == 0) {
     std::puts("moving tissue    none: no source, nothing is asked");
     return kDone;

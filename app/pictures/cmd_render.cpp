@@ -46,7 +46,7 @@ int run_render(const Arguments& arguments) {
   if (out.extension() == ".mha")
     write_file(out, meta_image(picture.values, picture.plane));
   else
-    write_file(out, png_from_grey(picture.grey, picture.plane.width_px, picture.plane.height_px));
+    write_file(out, png_of(picture));
   for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const auto [min, max] = std::minmax_element(picture.values.begin(), picture.values.end());
   if (arguments.has("--json"))

@@ -9,7 +9,6 @@
 #include "app/cli/words.h"
 #include "app/pictures/scene_picture.h"
 #include "app/pictures/sheet.h"
-#include "app/replay/png.h"
 #include "reports/sheets/picture_sheet.h"
 
 namespace seldinger::app {
@@ -44,8 +43,8 @@ int run_sheet(const Arguments& arguments) {
         for (std::size_t i = 0; i < picture->grey.size(); ++i)
           picture->grey[i] = static_cast<unsigned char>(std::abs(int{picture->grey[i]} - int{other->grey[i]}));
       }
-      pictures.back().png.push_back(
-          png_from_grey(picture->grey, picture->plane.width_px, picture->plane.height_px));
+      if (minus) picture->rgb.clear();
+      pictures.back().png.push_back(png_of(*picture));
       pictures.back().captions.push_back(picture->backend);
       std::fprintf(stderr, "%s, %s\n", row.name.c_str(), sheet->columns[pictures.back().png.size() - 1].c_str());
     }

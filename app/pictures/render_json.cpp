@@ -27,6 +27,7 @@ std::string json_of_picture(const ScenePicture& picture, double min, double max)
       {"unit", picture.unit},
       {"visible", nullptr}};
   if (picture.frame_rate_hz) json["frame_rate_hz"] = *picture.frame_rate_hz;
+  if (picture.colour_mm_s) json["colour_scale_cm_s"] = 0.1 * *picture.colour_mm_s;
   if (const auto& visible = picture.visible)
     json["visible"] = {{"needle_tip", visible->needle_tip},
                        {"needle_length_mm", visible->needle_length_mm},

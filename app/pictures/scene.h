@@ -44,6 +44,7 @@ struct UltrasoundSceneView {
   imaging::UltrasoundKnobs knobs;
   imaging::DisplaySize size;
   UltrasoundOutput output = UltrasoundOutput::display;
+  double colour_mm_s = 0.0;  // colour Doppler: the speed at which it wraps; 0: off
 };
 using View = std::variant<imaging::MprView, XrayView, UltrasoundSceneView>;
 
@@ -53,7 +54,8 @@ struct SceneMotion {
   std::optional<glm::dvec3>
       breath_mm{};        // at 1, where it is most: to the right, to the front, downwards; as cases have it
   double press_mm = 0.0;  // how deep the probe's head stands in the skin at rest, along its axis; ultrasound only
-  double drag_mm = 0.0;   // how far the needle's shaft takes tissue along; < 0 on the way out
+  double beat_s = 0.0;  // since a heart beat began: so blood flows, and so wide are drawn arteries; ultrasound only
+  double drag_mm = 0.0;  // how far the needle's shaft takes tissue along; < 0 on the way out
 };
 
 struct Scene {

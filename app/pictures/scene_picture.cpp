@@ -6,11 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "app/pictures/xray_sight.h"
+#include "app/replay/png.h"
 #include "casedb/import/skin/surface.h"
 #include "session/guidance/frame_truth.h"
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
@@ -20,6 +22,7 @@
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection/coarse.h"
+#include "sim/tissue/blood_flow.h"
 
 namespace seldinger::app {
 namespace {
@@ -146,12 +149,25 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
   }
 }
 
+// A scene's structures are told by their names.
+tissue::BloodFlow flow_of(std::span<const cases::Structure> structures) {
+  std::vector<cases::Structure> vessels(structures.begin(), structures.end());
+  for (cases::Structure& one : vessels) one.tissue = volume::TissueClass::vessel;
+  return tissue::BloodFlow(vessels);
+}
+
 // Of levels that nothing was added to: liver at the face is white, 128 dB below it black.
 unsigned char grey_of_db(float db) {
   return static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F));
 }
 
 }  // namespace
+
+std::vector<std::byte> png_of(const ScenePicture& picture) {
+  const int width = picture.plane.width_px, height = picture.plane.height_px;
+  return picture.rgb.empty() ? png_from_grey(picture.grey, width, height)
+                             : png_from_rgb(picture.rgb, width, height);
+}
 
 void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
                                     const tissue::Displacement& displacement, ScenePicture& picture) const {
@@ -216,6 +232,20 @@ void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imag
   picture.values.assign(picture.grey.begin(), picture.grey.end());
 }
 
+void ScenePainter::paint_colour(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
+                                std::span<const cases::Structure> structures, double beat_s,
+                                const tissue::Displacement& displacement, ScenePicture& picture) const {
+  const tissue::BloodFlow flow = flow_of(structures);
+  imaging::ColourPicture colour;
+  imaging::colour_polar({&volume_, tissue_->classes, tissue_->echogenicity}, scene.view, inserted,
+                        session::element_depths(tissue_->skin, scene.view, 1, displacement), flow,
+                        scene.colour_mm_s, beat_s, colour, displacement);
+  std::vector<unsigned char> numbers;
+  imaging::colour_numbers(imaging::ScanConverter(scene.view, scene.size), scene.knobs, colour, numbers);
+  picture.rgb = imaging::in_colour(picture.grey, numbers);
+  picture.colour_mm_s = colour.scale_mm_s;
+}
+
 base::Result<ScenePainter> ScenePainter::of(const Scene& scene, const std::string& library) {
   auto volume = volume_of(scene, library);
   if (!volume) return volume.error();
@@ -265,7 +295,12 @@ tissue::Displacement ScenePainter::displacement_of(const Scene& scene) const {
                              .radius_mm = needle->radius_mm,
                              .cut_mm = entry->distance_mm,
                              .shaft_mm = motion.drag_mm};
-  return tissue::displacement_of(causes);
+  const tissue::Displacement moved = tissue::displacement_of(causes);
+  const auto* ultrasound = std::get_if<UltrasoundSceneView>(&*scene.view);
+  if (ultrasound == nullptr) return moved;
+  const imaging::UltrasoundView& view = ultrasound->view;
+  return flow_of(scene.structures)
+      .with_pulse(moved, view.origin_lps_mm + 0.5 * view.depth_mm * view.axial, motion.beat_s);
 }
 
 base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::string& backend) {
@@ -281,7 +316,12 @@ base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::st
   } else {
     imaging::Inserted inserted = scene.inserted;
     imaging::settle_lesions(volume_, tissue_->classes, tissue_->echogenicity, inserted.lesions);
-    paint_ultrasound(std::get<UltrasoundSceneView>(*scene.view), inserted, displacement_of(scene), picture);
+    const auto& view = std::get<UltrasoundSceneView>(*scene.view);
+    const tissue::Displacement displacement = displacement_of(scene);
+    paint_ultrasound(view, inserted, displacement, picture);
+    if (view.colour_mm_s > 0.0)
+      paint_colour(view, inserted, scene.structures, scene.motion ? scene.motion->beat_s : 0.0, displacement,
+                   picture);
   }
   return picture;
 }

@@ -1,8 +1,10 @@
 // A scene's view as a picture.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,13 +19,17 @@ namespace seldinger::app {
 
 struct ScenePicture {
   PicturePlane plane;
-  std::vector<float> values;        // in `unit`, row-major
-  std::vector<unsigned char> grey;  // what a person sees
+  std::vector<float> values;          // in `unit`, row-major
+  std::vector<unsigned char> grey;    // what a person sees
+  std::vector<unsigned char> rgb;     // over it in colour, three bytes a pixel; empty: grey alone
+  std::optional<double> colour_mm_s;  // colour Doppler: the speed at which it wraps
   const char* unit = "";
   std::string backend;  // gpu, cpu or reference: what made it
   std::optional<imaging::Visible> visible;
   std::optional<double> frame_rate_hz;  // ultrasound: what sound allows at this depth and number of beams
 };
+
+std::vector<std::byte> png_of(const ScenePicture& picture);
 
 // Pictures of one volume: what they need of it beside its voxels is made once, when the first of them asks.
 class ScenePainter {
@@ -49,6 +55,9 @@ class ScenePainter {
   tissue::Displacement displacement_of(const Scene& scene) const;
   void paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
                         const tissue::Displacement& displacement, ScenePicture& picture) const;
+  void paint_colour(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
+                    std::span<const cases::Structure> structures, double beat_s,
+                    const tissue::Displacement& displacement, ScenePicture& picture) const;
 
   volume::Volume volume_;
   std::string library_;

@@ -105,6 +105,14 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, bas
   scene.output = output == "polar_db"      ? UltrasoundOutput::polar_db
                  : output == "envelope_db" ? UltrasoundOutput::envelope_db
                                            : UltrasoundOutput::display;
+  if (reader.has("colour") && reader["colour"].is_object()) {
+    SceneReader colour(reader["colour"], "view.colour", error);
+    scene.colour_mm_s = 10.0 * colour.number("scale_cm_s", 2.0, 500.0);
+    colour.unused(unused);
+    if (scene.output != UltrasoundOutput::display) reader.bad("colour", "is of a display");
+  } else if (reader.has("colour") && !reader["colour"].is_null()) {
+    reader.bad("colour", "is not an object");
+  }
   reader.unused(unused);
   return scene;
 }

@@ -120,6 +120,8 @@ Rectangle Canvas::picture(const Rectangle& area, const session::GreyPicture& pic
         picture.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width_px) +
                      static_cast<std::size_t>(x)]);
   };
+  const std::vector<unsigned char> rgb =
+      picture.colour.empty() ? std::vector<unsigned char>{} : session::rgb_of(picture);
   for (int y = 0; y < at.height; ++y)
     for (int x = 0; x < at.width; ++x) {
       const double fx = std::clamp((x + 0.5) / scale - 0.5, 0.0, picture.width_px - 1.0);
@@ -129,7 +131,12 @@ Rectangle Canvas::picture(const Rectangle& area, const session::GreyPicture& pic
       const double upper = grey(x0, y0) + (fx - x0) * (grey(x1, y0) - grey(x0, y0));
       const double lower = grey(x0, y1) + (fx - x0) * (grey(x1, y1) - grey(x0, y1));
       const auto value = static_cast<unsigned char>(upper + (fy - y0) * (lower - upper) + 0.5);
-      blend(at.left + x, at.top + y, 1.0, {value, value, value});
+      const auto nearest = static_cast<std::size_t>(std::lround(fy)) * static_cast<std::size_t>(picture.width_px) +
+                           static_cast<std::size_t>(std::lround(fx));
+      if (rgb.empty() || picture.colour[nearest] == 0)
+        blend(at.left + x, at.top + y, 1.0, {value, value, value});
+      else  // colours that wrap around have no mean
+        blend(at.left + x, at.top + y, 1.0, {rgb[3 * nearest], rgb[3 * nearest + 1], rgb[3 * nearest + 2]});
     }
   return at;
 }

@@ -9,8 +9,8 @@ namespace seldinger::app {
 namespace {
 
 // `palette`: of the pixels, which are its numbers; empty: they are greys or colours.
-std::vector<std::byte> png_of(std::span<const unsigned char> pixels, int width_px, int height_px,
-                              png_uint_32 format, std::span<const unsigned char> palette = {}) {
+std::vector<std::byte> encoded(std::span<const unsigned char> pixels, int width_px, int height_px,
+                               png_uint_32 format, std::span<const unsigned char> palette = {}) {
   CHECK(width_px > 0 && height_px > 0);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -32,7 +32,7 @@ std::vector<std::byte> png_of(std::span<const unsigned char> pixels, int width_p
 }  // namespace
 
 std::vector<std::byte> png_from_grey(std::span<const unsigned char> grey, int width_px, int height_px) {
-  return png_of(grey, width_px, height_px, PNG_FORMAT_GRAY);
+  return encoded(grey, width_px, height_px, PNG_FORMAT_GRAY);
 }
 
 std::vector<std::byte> png_in_greys(std::span<const unsigned char> grey, int width_px, int height_px, int greys) {
@@ -42,11 +42,17 @@ std::vector<std::byte> png_in_greys(std::span<const unsigned char> grey, int wid
     palette.push_back(static_cast<unsigned char>((255 * i + (greys - 1) / 2) / (greys - 1)));
   for (const unsigned char one : grey)
     numbers.push_back(static_cast<unsigned char>((one * (greys - 1) + 127) / 255));
-  return png_of(numbers, width_px, height_px, PNG_FORMAT_GRAY | PNG_FORMAT_FLAG_COLORMAP, palette);
+  return encoded(numbers, width_px, height_px, PNG_FORMAT_GRAY | PNG_FORMAT_FLAG_COLORMAP, palette);
 }
 
 std::vector<std::byte> png_from_rgb(std::span<const unsigned char> rgb, int width_px, int height_px) {
-  return png_of(rgb, width_px, height_px, PNG_FORMAT_RGB);
+  return encoded(rgb, width_px, height_px, PNG_FORMAT_RGB);
+}
+
+std::vector<std::byte> png_of(const session::GreyPicture& picture) {
+  if (picture.width_px == 0) return {};
+  if (picture.colour.empty()) return png_from_grey(picture.grey, picture.width_px, picture.height_px);
+  return png_from_rgb(session::rgb_of(picture), picture.width_px, picture.height_px);
 }
 
 }  // namespace seldinger::app

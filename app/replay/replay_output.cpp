@@ -35,11 +35,6 @@ bool is_comparable(const cases::Recording& recording) {
   return recording.step_version == engine::kStepVersion;
 }
 
-std::vector<std::byte> png_of(const session::GreyPicture& picture) {
-  return picture.width_px > 0 ? png_from_grey(picture.grey, picture.width_px, picture.height_px)
-                              : std::vector<std::byte>{};
-}
-
 // As a page has them, a dozen beside each other: all of them weigh less than 100 kB.
 constexpr int kSmallWidthPx = 160, kSmallGreys = 16, kPlaneGreys = 32;
 

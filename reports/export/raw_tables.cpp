@@ -13,6 +13,7 @@ namespace {
 constexpr const char* kNotInUse = "another modality";
 constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
 constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
+constexpr const char* kNoColour = "off, or another modality";
 constexpr const char* kAsTheCase = "as the case's picture has it, or another modality";
 constexpr const char* kAtRest = "tissue at the tip is where it is at rest: at the tip";
 constexpr const char* kRestTip =
@@ -333,6 +334,8 @@ const std::vector<Column<FrameFact>>& frame_columns() {
        [](CsvLine& line, const Fact& f) { place(line, f.console.frequency_mhz != 0.0, f.console.frequency_mhz); }},
       {{"console_slice_mm", "number", "mm", kAsTheCase, "how far beside the probe's plane a slice of the CT lies"},
        [](CsvLine& line, const Fact& f) { place(line, f.console.slice_mm != 0.0, f.console.slice_mm); }},
+      {{"console_colour_mm_s", "number", "mm/s", kNoColour, "colour Doppler: the speed at which it wraps around"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.colour_mm_s != 0.0, f.console.colour_mm_s); }},
   };
   return columns;
 }

@@ -7,6 +7,7 @@
 #include "sim/base/check.h"
 #include "sim/base/rng.h"
 #include "sim/engine/moving_tissue.h"
+#include "sim/tissue/blood_flow.h"
 
 namespace seldinger::session {
 namespace {
@@ -58,6 +59,12 @@ CaseNeeds needs_of_case(const cases::Case& scene) {
   hold("echogenicity", scene.echogenicity.size());
   hold("skin",
        scene.skin.vertices_lps_mm.size() * sizeof(glm::vec3) + scene.skin.triangles.size() * sizeof(glm::uvec3));
+
+  if (scene.picture.modality == cases::Modality::ultrasound) {
+    const tissue::BloodFlow flow(scene.structures);
+    needs.flowing = flow.names();
+    needs.unknown_flow.assign(flow.unknown().begin(), flow.unknown().end());
+  }
 
   const engine::MovingTissue moving(scene);
   const auto add = [&](const char* kind, const std::string& name = {}) {

@@ -27,6 +27,8 @@ struct CaseNeeds {
   std::vector<CaseNeed> held;          // as long as the scene is open
   std::vector<MotionSource> sources;   // at most kMostMotionSources
   std::size_t displacement_bytes = 0;  // of a picture's or tick's displacement; 0: none is made
+  // Under ultrasound: the vessels whose flow colour Doppler shows, and those of which it knows nothing.
+  std::vector<std::string> flowing, unknown_flow;
   // ns of one point with all sources acting, there and back to rest; 0: nothing is asked. Measured here and now.
   double there_ns = 0.0, back_ns = 0.0;
 };

@@ -3,7 +3,22 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "sim/imaging/ultrasound/colour.h"
+
 namespace seldinger::session {
+
+std::vector<unsigned char> rgb_of(const GreyPicture& picture) {
+  return imaging::in_colour(picture.grey, picture.colour);
+}
+
+std::vector<unsigned char> rgba_of(const GreyPicture& picture) {
+  const std::vector<unsigned char> rgb = rgb_of(picture);
+  std::vector<unsigned char> rgba(4 * picture.grey.size(), 255);
+  for (std::size_t i = 0; i < picture.grey.size(); ++i)
+    std::copy_n(rgb.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  return rgba;
+}
 
 void cut_black_edges(std::vector<GreyPicture>& pictures) {
   const auto sized =
@@ -28,10 +43,14 @@ void cut_black_edges(std::vector<GreyPicture>& pictures) {
   for (GreyPicture& picture : pictures) {
     if (!alike(picture)) continue;
     GreyPicture cut{{}, right - left + 1, bottom - top + 1};
-    for (int y = top; y <= bottom; ++y) {
-      const auto row = picture.grey.begin() + static_cast<std::ptrdiff_t>(y) * width;
-      cut.grey.insert(cut.grey.end(), row + left, row + right + 1);
-    }
+    const auto keep = [&](const std::vector<unsigned char>& from, std::vector<unsigned char>& to) {
+      for (int y = top; y <= bottom && !from.empty(); ++y) {
+        const auto row = from.begin() + static_cast<std::ptrdiff_t>(y) * width;
+        to.insert(to.end(), row + left, row + right + 1);
+      }
+    };
+    keep(picture.grey, cut.grey);
+    keep(picture.colour, cut.colour);
     picture = std::move(cut);
   }
 }

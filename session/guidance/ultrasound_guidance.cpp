@@ -19,7 +19,7 @@ class UltrasoundGuidance : public ProbeGuidance {
   GreyPicture picture(const cases::State& state, const tissue::Displacement& displacement,
                       const PictureNoise& noise) override {
     return sight_.picture(probe_in(state), state.probe.console, needle_in(state), noise.seed, noise.number,
-                          displacement);
+                          displacement, state.t_s);
   }
 
   std::unique_ptr<ScreenPainter> painter(std::uint64_t seed, PicturesBy by) const override {

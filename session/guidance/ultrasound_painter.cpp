@@ -58,8 +58,8 @@ void UltrasoundPainter::receive(const engine::Moment& moment) {
   const imaging::NeedlePose needle =
       imaging::needle_pose(scene_.instrument, state.needle.tip_lps_mm, state.needle.direction);
   const auto make = [&] {
-    return sight_.polar(probe_in(state), state.probe.console, needle, seed_, pictures_, polar_,
-                        moment.displacement);
+    return sight_.polar(probe_in(state), state.probe.console, needle, seed_, pictures_, polar_, moment.displacement,
+                        state.t_s);
   };
   ++pictures_;
   imaging::UltrasoundView view;
@@ -70,7 +70,8 @@ void UltrasoundPainter::receive(const engine::Moment& moment) {
     leave_gpu();
     view = make();
   }
-  console_.show(state.t_s, pictures_, view, polar_);
+  console_.show(state.t_s, pictures_, view, polar_,
+                sight_.colour(probe_in(state), state.probe.console, needle, state.t_s, moment.displacement));
 }
 
 void UltrasoundPainter::develop(ShownPicture& shown) {
@@ -87,9 +88,15 @@ void UltrasoundPainter::develop(ShownPicture& shown) {
                static_cast<int>(std::ceil((cine->view.depth_mm - converter_->top_mm()) / converter_->pixel_mm())));
   shown.picture.grey.resize(static_cast<std::size_t>(shown.picture.height_px) *
                             static_cast<std::size_t>(shown.picture.width_px));
+  shown.picture.colour.clear();
+  if (cine->colour) {
+    imaging::colour_numbers(*converter_, console_.knobs(), *cine->colour, shown.picture.colour);
+    shown.picture.colour.resize(shown.picture.grey.size());
+  }
   shown.pixel_mm = converter_->pixel_mm();
   shown.top_mm = converter_->top_mm();
   shown.console = {cine->view.depth_mm, cine->view.focus_mm, imaging::working_mhz(cine->view)};
+  if (cine->colour) shown.console.colour_mm_s = cine->colour->scale_mm_s;
   shown.t_s = cine->t_s;
   shown.cine_back = console_.scrolled();
   ++shown.number;

@@ -7,6 +7,7 @@
 #include "assessment/operators/probe_over.h"
 #include "sim/base/check.h"
 #include "sim/imaging/ultrasound/console.h"
+#include "sim/imaging/ultrasound/mirror.h"
 
 namespace seldinger::session {
 namespace {
@@ -124,7 +125,7 @@ double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSettin
 }
 
 UltrasoundSight::UltrasoundSight(const cases::Case& scene)
-    : scene_(scene), tissue_{&scene.volume, scene.classes, scene.echogenicity} {
+    : scene_(scene), tissue_{&scene.volume, scene.classes, scene.echogenicity}, flow_(scene.structures) {
   CHECK(scene.classes.size() == scene.volume.hu.size());
 }
 
@@ -192,7 +193,7 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
 }
 
 void UltrasoundSight::draw_on(gpu::Context& context) {
-  const bool moves = scene_.yields || scene_.breathing.has_value();
+  const bool moves = scene_.yields || scene_.breathing.has_value() || flow_.pulsates();
   gpu_ = std::make_shared<imaging::UltrasoundGpu>(context, tissue_, imaging::LinesBy::machine,
                                                   moves ? imaging::TissueMoves::yes : imaging::TissueMoves::no);
 }
@@ -207,32 +208,56 @@ struct UltrasoundSight::Screen {
 imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                                const imaging::NeedlePose& needle, std::uint64_t seed,
                                                std::uint64_t frame, imaging::PolarPicture& picture,
-                                               const tissue::Displacement& displacement) const {
+                                               const tissue::Displacement& displacement, double t_s) const {
   imaging::UltrasoundView view = held(view_of(scene_.picture, console), probe);
   view.method = method_;
   const std::vector<float> depths = element_depths(scene_.skin_index, view, 1, displacement);
+  const tissue::Displacement moved = drawn(view, displacement, t_s);
   if (gpu_)
-    gpu_->polar(view, {needle, scene_.lesions}, depths, picture, displacement);
+    gpu_->polar(view, {needle, scene_.lesions}, depths, picture, moved);
   else
-    imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, depths, picture, displacement);
+    imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, depths, picture, moved);
   imaging::add_receiver_noise(seed, frame, picture);
   return view;
 }
 
+tissue::Displacement UltrasoundSight::drawn(const imaging::UltrasoundView& view,
+                                            const tissue::Displacement& displacement, double t_s) const {
+  if (!imaging::shows_artefacts(view)) return displacement;
+  return flow_.with_pulse(displacement, view.origin_lps_mm + 0.5 * view.depth_mm * view.axial, t_s);
+}
+
+std::optional<imaging::ColourPicture> UltrasoundSight::colour(const cases::ToolPose& probe,
+                                                              const cases::ConsoleSetting& console,
+                                                              const imaging::NeedlePose& needle, double t_s,
+                                                              const tissue::Displacement& displacement) const {
+  if (!(console.colour_mm_s > 0.0)) return std::nullopt;
+  const imaging::UltrasoundView view = held(view_of(scene_.picture, console), probe);
+  imaging::ColourPicture colour;
+  imaging::colour_polar(tissue_, view, {needle, scene_.lesions},
+                        element_depths(scene_.skin_index, view, 1, displacement), flow_, console.colour_mm_s, t_s,
+                        colour, drawn(view, displacement, t_s));
+  return colour;
+}
+
 GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                      const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
-                                     const tissue::Displacement& displacement) {
+                                     const tissue::Displacement& displacement, double t_s) {
   const imaging::UltrasoundView asked = console_view(scene_.picture, console);
   if (!screen_ || screen_->depth_mm != asked.depth_mm) screen_ = std::make_shared<Screen>(asked);
   const imaging::ScanConverter& converter = screen_->converter;
   GreyPicture picture;
-  const imaging::UltrasoundView view = polar(probe, console, needle, seed, frame, screen_->polar, displacement);
+  const imaging::UltrasoundView view =
+      polar(probe, console, needle, seed, frame, screen_->polar, displacement, t_s);
   converter.grey(view, {}, screen_->polar, picture.grey);
+  if (const auto flow = colour(probe, console, needle, t_s, displacement))
+    imaging::colour_numbers(converter, {}, *flow, picture.colour);
   picture.width_px = converter.width_px();
   picture.height_px =
       std::min(converter.height_px(),
                static_cast<int>(std::ceil((view.depth_mm - converter.top_mm()) / converter.pixel_mm())));
   picture.grey.resize(static_cast<std::size_t>(picture.height_px) * static_cast<std::size_t>(picture.width_px));
+  if (!picture.colour.empty()) picture.colour.resize(picture.grey.size());
   return picture;
 }
 

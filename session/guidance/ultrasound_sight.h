@@ -14,9 +14,11 @@
 #include "sim/case/form/mesh_index.h"
 #include "sim/case/state.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/ultrasound.h"
 #include "sim/imaging/ultrasound/visible.h"
+#include "sim/tissue/blood_flow.h"
 #include "sim/tissue/displacement.h"
 
 namespace seldinger::session {
@@ -64,30 +66,40 @@ class UltrasoundSight {
   imaging::UltrasoundVisible see(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                  const imaging::NeedlePose& needle,
                                  const tissue::Displacement& displacement = {}) const;
-  // What the machine receives there, with its noise; answers how it looked.
+  // What the machine receives there, with its noise; answers how it looked. Arteries are as wide as the heart's
+  // beat has them at `t_s` of the attempt; what is told (see) does not ask for that.
   imaging::UltrasoundView polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                 const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
-                                imaging::PolarPicture& picture,
-                                const tissue::Displacement& displacement = {}) const;
+                                imaging::PolarPicture& picture, const tissue::Displacement& displacement = {},
+                                double t_s = 0.0) const;
+  // What colour Doppler shows over such a picture; nothing while it is off.
+  std::optional<imaging::ColourPicture> colour(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                               const imaging::NeedlePose& needle, double t_s,
+                                               const tissue::Displacement& displacement = {}) const;
   // How `polar` makes speckle; scatterers unless it is told.
   void set_method(imaging::UltrasoundMethod method) noexcept { method_ = method; }
   // `polar` is GL's from now on, on the context's thread. Throws base::Failure("gl").
   void draw_on(gpu::Context& context);
   void draw_on_cpu() noexcept { gpu_.reset(); }  // again
-  // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise.
+  // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise;
+  // at `t_s` of the attempt, which tells the heart's beat.
   GreyPicture picture(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                       const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
-                      const tissue::Displacement& displacement = {});
+                      const tissue::Displacement& displacement = {}, double t_s = 0.0);
 
  private:
   struct Screen;  // what pictures need beside the tissue, made with the first
   // console_view under the scene's law of sight.
   imaging::UltrasoundView view_of(const cases::Picture& picture, const cases::ConsoleSetting& console) const;
+  // In pictures: with the pulse, where the scene's law has it (imaging::shows_artefacts).
+  tissue::Displacement drawn(const imaging::UltrasoundView& view, const tissue::Displacement& displacement,
+                             double t_s) const;
   imaging::UltrasoundVisible see(const imaging::UltrasoundView& view, const imaging::Inserted& inserted,
                                  const tissue::Displacement& displacement) const;
 
   const cases::Case& scene_;
   imaging::TissueVolume tissue_;
+  tissue::BloodFlow flow_;
   std::shared_ptr<Screen> screen_;
   imaging::UltrasoundMethod method_ = imaging::UltrasoundMethod::scatterers;
   std::shared_ptr<imaging::UltrasoundGpu> gpu_;

@@ -82,9 +82,12 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
       add_integer(breath.holds);
     }
   }
-  if (const ConsoleSetting& console = state.probe.console; !(console == ConsoleSetting{}))
+  if (const ConsoleSetting& console = state.probe.console; !(console == ConsoleSetting{})) {
     for (const double value : {console.depth_mm, console.focus_mm, console.frequency_mhz, console.slice_mm})
       add(value);
+    // Whoever leaves it off has the hash of before there was any.
+    if (console.colour_mm_s != 0.0) add(console.colour_mm_s);
+  }
   if (state.flow.in_use) hash = hash_of(state.flow, hash);
   return state.fluoroscopy.in_use ? hash_of(state.fluoroscopy, hash) : hash;
 }

@@ -92,6 +92,16 @@ TEST_F(TrainConsoleTest, DepthAndFrequencyAreTheTraineesAndStandInTheAttempt) {
   ASSERT_TRUE(fixtures::until(  // 3.57, to 3.5, to 3
       [&] { return now().value("focus_mm", 0.0) > 0.0 && now().value("frequency_mhz", 9.0) == 3.0; }))
       << now();
+  const auto grey = guidance();
+  press("v");
+  ASSERT_TRUE(fixtures::until([&] { return now().value("colour_mm_s", 0.0) == 200.0; })) << now();
+  const auto is_coloured = [](const fixtures::RgbPicture& picture) {  // the bar's end that comes towards the probe
+    for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
+      if (picture.rgb[i] > 240 && picture.rgb[i + 1] > 200 && picture.rgb[i + 2] < 20) return true;
+    return false;
+  };
+  EXPECT_FALSE(is_coloured(grey));
+  EXPECT_TRUE(is_coloured(guidance()));
   const Json last = now();
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   Json shown;
@@ -103,6 +113,7 @@ TEST_F(TrainConsoleTest, DepthAndFrequencyAreTheTraineesAndStandInTheAttempt) {
   EXPECT_GT(end.depth_mm, own_mm + 15.0);
   EXPECT_DOUBLE_EQ(end.focus_mm, last["focus_mm"].get<double>());
   EXPECT_DOUBLE_EQ(end.frequency_mhz, last["frequency_mhz"].get<double>());
+  EXPECT_EQ(end.colour_mm_s, 200.0);
 }
 
 // The knobs of the attempt before say nothing of this one's picture.

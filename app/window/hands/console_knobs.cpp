@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "session/guidance/ultrasound_sight.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/view/view.h"
+#include "sim/tissue/blood_flow.h"
 
 namespace seldinger::app {
 namespace {
@@ -12,7 +14,8 @@ namespace {
 // A press of a key (design): steps that one sees, and that lead to round numbers.
 constexpr double kFineDepthMm = 5.0, kDepthMm = 10.0, kFineToMm = 60.0;
 constexpr double kFocusMm = 5.0, kFrequencyMhz = 0.5, kSliceMm = 1.0, kGainDb = 2.0, kRangeDb = 5.0;
-constexpr double kAlready = 1e-6;  // of a step: where it stands, it is not led to again
+constexpr double kColourMmS = 200.0;  // to begin with
+constexpr double kAlready = 1e-6;     // of a step: where it stands, it is not led to again
 
 // The next multiple of a step above or below.
 double next(double value, double step, bool more) {
@@ -24,6 +27,19 @@ double turned_db(double value, double by_db, double least_db, double most_db) {
 }
 
 }  // namespace
+
+std::string colour_words(std::span<const cases::Structure> structures) {
+  const tissue::BloodFlow flow(structures);
+  const auto list = [](std::string words, std::span<const std::string> names) {
+    for (std::size_t i = 0; i < names.size(); ++i) words += (i > 0 ? ", " : " ") + names[i];
+    return words;
+  };
+  std::string words =
+      "colour Doppler (V): red comes towards the probe, blue goes away, across the beam nothing shows";
+  if (flow.empty()) return words + "\nof no vessel of this case is it known how blood flows";
+  words += list("\nit shows the flow in", flow.names());
+  return flow.unknown().empty() ? words : list(words + "\nhow blood flows is not known in", flow.unknown());
+}
 
 void ConsoleKnobs::begin(const cases::Picture& picture) {
   picture_ = picture;
@@ -77,8 +93,12 @@ void ConsoleKnobs::set_slice_mm(double slice_mm) {
   asked_.slice_mm = std::clamp(slice_mm, -session::kMostSliceMm, session::kMostSliceMm);
 }
 
+void ConsoleKnobs::set_colour_mm_s(double colour_mm_s) {
+  asked_.colour_mm_s = colour_mm_s > 0.0 ? imaging::colour_scale_mm_s(view(), colour_mm_s) : 0.0;
+}
+
 void ConsoleKnobs::turn(ConsoleTurn turned, bool frozen) {
-  if (frozen && turned <= ConsoleTurn::slice_on) return;
+  if (frozen && turned <= ConsoleTurn::colour) return;
   const bool ultrasound = picture_.modality == cases::Modality::ultrasound;
   const imaging::UltrasoundView stands = ultrasound ? view() : imaging::UltrasoundView{};
   const auto depth_step_mm = [&](bool more) {
@@ -105,6 +125,8 @@ void ConsoleKnobs::turn(ConsoleTurn turned, bool frozen) {
       return set_slice_mm(next(asked_.slice_mm, kSliceMm, false));
     case ConsoleTurn::slice_on:
       return set_slice_mm(next(asked_.slice_mm, kSliceMm, true));
+    case ConsoleTurn::colour:
+      return set_colour_mm_s(asked_.colour_mm_s > 0.0 ? 0.0 : kColourMmS);
     case ConsoleTurn::gain_less:
     case ConsoleTurn::gain_more:
       screen.gain_db = turned_db(screen.gain_db, turned == ConsoleTurn::gain_more ? kGainDb : -kGainDb,

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "session/guidance/slice_picture.h"
 #include "sim/case/case.h"
 #include "sim/case/console.h"
+#include "sim/case/structure.h"
 #include "sim/imaging/ultrasound/console.h"
 
 namespace seldinger::app {
@@ -23,6 +26,7 @@ enum class ConsoleTurn : std::uint8_t {
   frequency_more,  // what an attempt records of ultrasound; while it is frozen these do nothing
   slice_back,
   slice_on,  // and of slices, likewise
+  colour,    // of ultrasound again
   gain_less,
   gain_more,
   range_less,
@@ -32,6 +36,9 @@ enum class ConsoleTurn : std::uint8_t {
   next_preset,
   next_window,
 };
+
+// What colour Doppler shows of a case's vessels, and what it cannot.
+std::string colour_words(std::span<const cases::Structure> structures);
 
 class ConsoleKnobs {
  public:
@@ -48,7 +55,8 @@ class ConsoleKnobs {
   void set_focus_mm(double focus_mm);  // 0: at every depth
   void set_frequency_mhz(double frequency_mhz);
   void set_slice_mm(double slice_mm);
-  imaging::UltrasoundView view() const;  // as it stands, without a pose; ultrasound only (CHECKed)
+  void set_colour_mm_s(double colour_mm_s);  // 0: off
+  imaging::UltrasoundView view() const;      // as it stands, without a pose; ultrasound only (CHECKed)
 
   // Those of the probe at hand. What none of them is, the knobs made.
   const std::vector<imaging::ConsolePreset>& presets() const noexcept { return presets_; }

@@ -9,6 +9,7 @@
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "session/guidance/ultrasound_sight.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::app {
@@ -18,7 +19,7 @@ struct TurningKey {
   int key;
   ConsoleTurn turn;
 };
-constexpr std::array<TurningKey, 13> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
+constexpr std::array<TurningKey, 14> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
                                                          {kDown, ConsoleTurn::depth_more},
                                                          {'[', ConsoleTurn::focus_less},
                                                          {']', ConsoleTurn::focus_more},
@@ -30,6 +31,7 @@ constexpr std::array<TurningKey, 13> kUltrasoundKeys = {{{kUp, ConsoleTurn::dept
                                                          {'\'', ConsoleTurn::range_more},
                                                          {'B', ConsoleTurn::next_map},
                                                          {'X', ConsoleTurn::flip},
+                                                         {'V', ConsoleTurn::colour},
                                                          {'C', ConsoleTurn::next_preset}}};
 constexpr std::array<TurningKey, 3> kSliceKeys = {
     {{kUp, ConsoleTurn::slice_back}, {kDown, ConsoleTurn::slice_on}, {'C', ConsoleTurn::next_window}}};
@@ -158,6 +160,21 @@ bool MonitorPanel::draw_beam_knobs(float wide) {
   return turned;
 }
 
+void MonitorPanel::draw_colour_knobs(float wide) {
+  bool colour = knobs_.asked().colour_mm_s > 0.0;
+  if (ImGui::Checkbox("colour", &colour)) knobs_.turn(ConsoleTurn::colour, false);
+  note_item("colour");
+  tip(colour_words_.c_str());
+  ImGui::SameLine();
+  if (!colour) return;
+  double scale_cm_s = 0.1 * knobs_.asked().colour_mm_s;
+  if (knob("##scale", scale_cm_s, 0.1 * imaging::kLeastColourMmS, 0.1 * imaging::most_colour_mm_s(knobs_.view()),
+           "± %.0f cm/s", 0.19F * wide))
+    knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));
+  tip("the speed at which colours wrap around; a deeper picture allows less");
+  ImGui::SameLine();
+}
+
 bool MonitorPanel::draw_screen_knobs(float wide) {
   bool turned = false;
   imaging::UltrasoundKnobs& screen = knobs_.screen;
@@ -208,10 +225,13 @@ void MonitorPanel::draw_ultrasound(session::Monitor& monitor, bool frozen, bool 
   if (turned) tell(monitor);
 
   if (two_rows) ImGui::SameLine();
+  ImGui::BeginDisabled(frozen || !turns);
+  draw_colour_knobs(wide);
+  ImGui::EndDisabled();
   // Cine, as long as the picture is frozen.
   ImGui::BeginDisabled(!frozen || shown_.cine_pictures < 2);
   int back = -shown_.cine_back;
-  ImGui::SetNextItemWidth(0.32F * wide);
+  ImGui::SetNextItemWidth(0.17F * wide);
   if (ImGui::SliderInt("##cine", &back, -std::max(1, shown_.cine_pictures - 1), 0, "cine %d"))
     monitor.set_console([back](imaging::Console& console) { console.scroll(-back); });
   ImGui::EndDisabled();

@@ -46,6 +46,7 @@ void MonitorPanel::begin(const cases::Case& scene) {
   machine_state_ = {};
   shown_ = {};
   knobs_.begin(scene.picture);
+  colour_words_ = colour_words(scene.structures);
   calipers_.clear();
   measured_mm_.reset();
   measuring_ = frozen_ = false;
@@ -239,11 +240,11 @@ void MonitorPanel::draw_picture(const Seen& seen, float width, float height) {
   notches_ = ImGui::IsItemHovered() ? static_cast<int>(std::lround(ImGui::GetIO().MouseWheel)) : 0;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 end{corner.x + width, corner.y + height};
-  if (picture_.width_px() == 0 || shown_.picture.width_px == 0) {
+  if (picture().width_px() == 0 || shown_.picture.width_px == 0) {
     draw->AddRectFilled(corner, end, kNothing);
     return;
   }
-  const float across = static_cast<float>(picture_.width_px()), down = static_cast<float>(picture_.height_px());
+  const float across = static_cast<float>(picture().width_px()), down = static_cast<float>(picture().height_px());
   const float ruler = shown_.pixel_mm > 0.0 ? scaled(kRulerPx) : 0.0F;
   const float zoom = std::min((width - ruler) / across, height / down);
   const ImVec2 low{corner.x + 0.5F * (width - ruler - zoom * across), corner.y + 0.5F * (height - zoom * down)};
@@ -253,7 +254,7 @@ void MonitorPanel::draw_picture(const Seen& seen, float width, float height) {
   draw->AddRectFilled({corner.x, high.y}, end, kNothing);
   draw->AddRectFilled({corner.x, low.y}, {low.x, high.y}, kNothing);
   draw->AddRectFilled({high.x, low.y}, {end.x, high.y}, kNothing);
-  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture_.name())), low, high);
+  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture().name())), low, high);
   if (shown_.pixel_mm > 0.0) {
     measure(low.x, low.y, zoom);  // first: it asks for the picture's own item
     draw_marks(low.x, low.y, zoom);
@@ -275,17 +276,23 @@ void MonitorPanel::draw_flash(const cases::State& state, float left, float top, 
   note_part("flash", left, top, width, height);
 }
 
+void MonitorPanel::put_on_screen() {
+  const session::GreyPicture& shown = shown_.picture;
+  if (shown.colour.empty())
+    picture_.show(shown.width_px, shown.height_px, shown.grey);
+  else
+    coloured_.show(shown.width_px, shown.height_px, session::rgba_of(shown));
+}
+
 void MonitorPanel::take_late(session::Monitor& monitor) {
-  if (picture_.width_px() > 0 && monitor.take(shown_) && shown_.picture.width_px > 0)
-    picture_.show(shown_.picture.width_px, shown_.picture.height_px, shown_.picture.grey);
+  if (picture().width_px() > 0 && monitor.take(shown_) && shown_.picture.width_px > 0) put_on_screen();
 }
 
 void MonitorPanel::draw(session::Monitor& monitor, const Seen& seen, bool lamps, const Keys& keys,
                         HandsTold* told) {
   const cases::State& state = seen.moment.state;
   const bool frozen = seen.frozen;
-  if (monitor.take(shown_) && shown_.picture.width_px > 0)
-    picture_.show(shown_.picture.width_px, shown_.picture.height_px, shown_.picture.grey);
+  if (monitor.take(shown_) && shown_.picture.width_px > 0) put_on_screen();
   machine_state_ = state.fluoroscopy;
   if (frozen_ && !frozen) calipers_.clear();  // what was measured moves on
   frozen_ = frozen;

@@ -18,7 +18,8 @@ namespace seldinger::app {
 
 class MonitorPanel {
  public:
-  explicit MonitorPanel(gpu::Context& context) : picture_(context, gpu::ScreenPicture::Pixels::grey) {}
+  explicit MonitorPanel(gpu::Context& context)
+      : picture_(context, gpu::ScreenPicture::Pixels::grey), coloured_(context, gpu::ScreenPicture::Pixels::rgba) {}
 
   // A new attempt, with a console of its own: knobs stand where that begins, calipers and picture are gone.
   void begin(const cases::Case& scene);
@@ -35,7 +36,9 @@ class MonitorPanel {
   void take_late(session::Monitor& monitor);
 
   const session::ShownPicture& shown() const noexcept { return shown_; }
-  const gpu::ScreenPicture& picture() const noexcept { return picture_; }
+  const gpu::ScreenPicture& picture() const noexcept {
+    return shown_.picture.colour.empty() ? picture_ : coloured_;
+  }
   const ConsoleKnobs& knobs() const noexcept { return knobs_; }
 
   // The depth that calipers measured from the face down, once each time they are let go.
@@ -47,6 +50,7 @@ class MonitorPanel {
 
  private:
   void read_keys(session::Monitor& monitor, bool frozen, bool watched, const Keys& keys);
+  void put_on_screen();  // what is shown now
   void draw_picture(const Seen& seen, float width, float height);
   void draw_guide(const devices::ProbeGuide& guide, float left, float top, float zoom);
   void draw_flash(const cases::State& state, float left, float top, float width, float height);
@@ -57,6 +61,7 @@ class MonitorPanel {
   void draw_ultrasound(session::Monitor& monitor, bool frozen, bool turns);
   bool draw_beam_knobs(float wide);    // preset, depth, focus, frequency; true: another preset
   bool draw_screen_knobs(float wide);  // gain, range, grey map, flip, time gain; true: turned
+  void draw_colour_knobs(float wide);  // on or off, and its scale
   void draw_slices(session::Monitor& monitor, bool frozen, bool turns);
   void read_fluoroscope(const Keys& keys, cases::FluoroscopeInputs& asked) const;
   void expose_automatically(bool automatic, cases::FluoroscopeInputs& asked) const;
@@ -68,7 +73,7 @@ class MonitorPanel {
   void tell(session::Monitor& monitor) const;                                    // what acts on the screen
   void keep();
 
-  gpu::ScreenPicture picture_;
+  gpu::ScreenPicture picture_, coloured_;  // grey alone; with flow in colour
   session::ShownPicture shown_;
   cases::Picture kind_;
   cases::Fluoroscope machine_;
@@ -80,7 +85,7 @@ class MonitorPanel {
   int notches_ = 0;  // of the wheel, over the picture, in this frame
   double dose_from_s_ = 0.0, dose_from_mgy_ = 0.0, dose_mgy_min_ = 0.0;  // lately
   std::optional<Canvas> kept_;
-  std::string fire_words_;
+  std::string fire_words_, colour_words_;
   std::string note_;
   double note_until_s_ = 0.0;
 };

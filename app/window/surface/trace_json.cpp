@@ -26,6 +26,7 @@ std::string json_of(const TraceLine& line) {
                  {"focus_mm", line.console.focus_mm},
                  {"frequency_mhz", line.console.frequency_mhz},
                  {"slice_mm", line.console.slice_mm},
+                 {"colour_mm_s", line.console.colour_mm_s},
                  {"gain_db", line.gain_db},
                  {"needle_lps_mm", {line.needle_lps_mm.x, line.needle_lps_mm.y, line.needle_lps_mm.z}},
                  {"probe_lps_mm", {line.probe_lps_mm.x, line.probe_lps_mm.y, line.probe_lps_mm.z}}});

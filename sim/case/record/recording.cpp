@@ -11,8 +11,9 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 7, kFormatWithoutPauses = 6, kFormatWithoutConsole = 5, kFormatWithoutEvents = 4,
-                        kFormatWithoutForces = 3, kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
+constexpr std::uint32_t kFormat = 8, kFormatWithoutColour = 7, kFormatWithoutPauses = 6, kFormatWithoutConsole = 5,
+                        kFormatWithoutEvents = 4, kFormatWithoutForces = 3, kFormatWithoutNearPlane = 2,
+                        kFormatWithoutFluoroscope = 1;
 constexpr std::uint32_t kMaxRows = 50'000;  // per chunk, 25 kHz: bounds what damaged bytes can make us allocate
 
 constexpr std::uint32_t kNotListened = 0xffff'ffff;
@@ -29,7 +30,7 @@ struct Header {
 static_assert(sizeof(Header) == 104);
 constexpr std::size_t kHeaderWithoutForces = 96;
 
-enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2, kConsole = 4, kPauses = 8 };
+enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2, kConsole = 4, kPauses = 8, kColour = 16 };
 
 struct Piece {
   Rows inputs, poses, forces, frames, events;
@@ -51,6 +52,13 @@ bool uses_fluoroscope(const Recording& recording, const Piece& piece) {
 bool turns_console(const Recording& recording, const Piece& piece) {
   for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i)
     if (!(recording.inputs[i].console == ConsoleSetting{})) return true;
+  return false;
+}
+
+// Whether flow was shown in colour in a chunk.
+bool shows_colour(const Recording& recording, const Piece& piece) {
+  for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i)
+    if (recording.inputs[i].console.colour_mm_s != 0.0) return true;
   return false;
 }
 
@@ -87,7 +95,7 @@ Header header_of(const Recording& recording, const Piece& piece, const ChunkLayo
     }
   }
   header.used = (layout.fluoroscope ? kFluoroscope : 0U) | (layout.moving ? kMoves : 0U) |
-                (layout.console ? kConsole : 0U) | (layout.pauses ? kPauses : 0U);
+                (layout.console ? kConsole : 0U) | (layout.pauses ? kPauses : 0U) | (layout.colour ? kColour : 0U);
   return header;
 }
 
@@ -97,6 +105,7 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   layout.moving = moves(recording, piece);
   layout.console = turns_console(recording, piece);
   layout.pauses = pauses(recording, piece);
+  layout.colour = shows_colour(recording, piece);
   const Header header = header_of(recording, piece, layout);
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
@@ -123,7 +132,8 @@ std::uint32_t used_bits(std::uint32_t format) {
   if (format == kFormatWithoutFluoroscope) return 0;
   if (format <= kFormatWithoutEvents) return kFluoroscope;
   if (format <= kFormatWithoutConsole) return kFluoroscope | kMoves;
-  return kFluoroscope | kMoves | kConsole | (format > kFormatWithoutPauses ? kPauses : 0U);
+  return kFluoroscope | kMoves | kConsole | (format > kFormatWithoutPauses ? kPauses : 0U) |
+         (format > kFormatWithoutColour ? kColour : 0U);
 }
 
 // The header of a chunk in any known format, its later fields as the newest format would have them.
@@ -149,6 +159,7 @@ ChunkLayout layout_of(const Header& header) {
   layout.moving = (header.used & kMoves) != 0;
   layout.console = (header.used & kConsole) != 0;
   layout.pauses = (header.used & kPauses) != 0;
+  layout.colour = (header.used & kColour) != 0;
   layout.listened = header.events != kNotListened;
   layout.near_plane = header.format > kFormatWithoutNearPlane;
   return layout;

@@ -6,8 +6,8 @@
 namespace seldinger::cases {
 namespace {
 
-constexpr std::size_t kInputColumns = 20, kFluoroscopeColumns = 17, kConsoleColumns = 4;
-static_assert(kMaxInputColumns == kInputColumns + kFluoroscopeColumns + kConsoleColumns);
+constexpr std::size_t kInputColumns = 20, kFluoroscopeColumns = 17, kConsoleColumns = 4, kColourColumns = 1;
+static_assert(kMaxInputColumns == kInputColumns + kFluoroscopeColumns + kConsoleColumns + kColourColumns);
 
 // The flags of a row share one word.
 enum InputBit : unsigned { kFire = 1, kFreeze = 2, kPedal = 4, kAutomatic = 8, kHandAway = 16, kHandInBeam = 32 };
@@ -154,7 +154,8 @@ base::Error unknown_event() {
 }  // namespace
 
 std::size_t ChunkLayout::input_columns() const noexcept {
-  return kInputColumns + (fluoroscope ? kFluoroscopeColumns : 0) + (console ? kConsoleColumns : 0);
+  return kInputColumns + (fluoroscope ? kFluoroscopeColumns : 0) + (console ? kConsoleColumns : 0) +
+         (colour ? kColourColumns : 0);
 }
 
 std::size_t ChunkLayout::pose_columns() const noexcept {
@@ -185,6 +186,7 @@ void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& lay
     *at++ = recording.hashes[i];
     if (layout.fluoroscope) put(at, asked, inputs.exposure);
     if (layout.console) put(at, inputs.console);
+    if (layout.colour) put(at, inputs.console.colour_mm_s);
   }
   append_table(out, words, layout.input_columns());
 }
@@ -276,6 +278,7 @@ base::Result<void> read_inputs(const std::byte*& from, std::size_t count, const 
       get(at, in.fluoroscope, in.exposure);
     }
     if (layout.console) in.console = get_console(at);
+    if (layout.colour) in.console.colour_mm_s = get(at);
   }
   return {};
 }

@@ -15,7 +15,8 @@ namespace seldinger::cases {
 struct ChunkLayout {
   bool fluoroscope = false;  // its settings, exposures and beams
   bool moving = false;       // where each tip lies in the patient at rest
-  bool console = false;      // how the ultrasound console was set
+  bool console = false;      // how the console was set
+  bool colour = false;       // and its colour Doppler
   bool listened = true;      // events were recorded
   bool near_plane = true;    // frames say what lies near the picture's plane
   bool pauses = false;       // events say how long by the wall's clock
@@ -26,7 +27,7 @@ struct ChunkLayout {
   std::size_t event_columns() const noexcept;
 };
 constexpr std::size_t kForceColumns = 4, kRestColumns = 3;
-constexpr std::size_t kMaxInputColumns = 41, kMaxPoseColumns = 19;
+constexpr std::size_t kMaxInputColumns = 42, kMaxPoseColumns = 19;
 
 // Rows `first` to `end` of one of a recording's tables.
 struct Rows {

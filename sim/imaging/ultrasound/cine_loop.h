@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
@@ -15,6 +16,7 @@ struct CinePicture {
   std::uint64_t number = 0;
   UltrasoundView view;  // with the pose that it was taken from
   PolarPicture picture;
+  std::optional<ColourPicture> colour;  // over it
 };
 
 class CineLoop {
@@ -24,7 +26,8 @@ class CineLoop {
 
   void clear() noexcept { count_ = 0; }
   int size() const noexcept { return count_; }
-  void push(double t_s, std::uint64_t number, const UltrasoundView& view, const PolarPicture& picture);
+  void push(double t_s, std::uint64_t number, const UltrasoundView& view, const PolarPicture& picture,
+            std::optional<ColourPicture> colour = {});
   // 0 the newest; nothing when there are not so many.
   std::optional<CinePicture> back(int pictures) const;
 
@@ -35,6 +38,7 @@ class CineLoop {
     UltrasoundView view;
     int beams = 0, samples = 0;
     std::vector<std::uint16_t> levels;
+    std::optional<ColourPicture> colour;
   };
   std::vector<Kept> kept_;
   int count_ = 0, next_ = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
@@ -117,8 +118,9 @@ void Console::set_frozen(bool frozen) {
   scrolled_ = 0;
 }
 
-void Console::show(double t_s, std::uint64_t number, const UltrasoundView& view, const PolarPicture& picture) {
-  if (!frozen_) loop_.push(t_s, number, view, picture);
+void Console::show(double t_s, std::uint64_t number, const UltrasoundView& view, const PolarPicture& picture,
+                   std::optional<ColourPicture> colour) {
+  if (!frozen_) loop_.push(t_s, number, view, picture, std::move(colour));
 }
 
 void Console::scroll(int pictures_back) noexcept {

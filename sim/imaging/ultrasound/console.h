@@ -64,7 +64,8 @@ class Console {
   bool frozen() const noexcept { return frozen_; }
   void set_frozen(bool frozen);
   // Live pictures enter here; `view` with its pose. Of a frozen console nothing changes.
-  void show(double t_s, std::uint64_t number, const UltrasoundView& view, const PolarPicture& picture);
+  void show(double t_s, std::uint64_t number, const UltrasoundView& view, const PolarPicture& picture,
+            std::optional<ColourPicture> colour = {});
   // Back from the newest, while frozen; clamped to what there is.
   void scroll(int pictures_back) noexcept;
   int scrolled() const noexcept { return scrolled_; }

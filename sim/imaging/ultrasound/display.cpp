@@ -51,9 +51,12 @@ Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept {
 }
 
 ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
-    : size_(size), beams_(view.beams), samples_(view.samples), screen_(screen_of(view, size)) {
+    : size_(size),
+      beams_(view.beams),
+      samples_(view.samples),
+      sample_mm_(fan_of(view).sample_mm),
+      screen_(screen_of(view, size)) {
   CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
-  const double sample_mm = fan_of(view).sample_mm;
   sources_.resize(static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
   std::size_t pixel = 0;
   for (int r = 0; r < size.height_px; ++r)
@@ -63,7 +66,7 @@ ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
       if (at.beam < -0.5 || at.beam > view.beams - 0.5 || at.depth_mm < 0.0 || at.depth_mm > view.depth_mm)
         continue;
       const double beam = std::clamp(at.beam, 0.0, view.beams - 1.0),
-                   sample = std::clamp(at.depth_mm / sample_mm - 0.5, 0.0, view.samples - 1.0);
+                   sample = std::clamp(at.depth_mm / sample_mm_ - 0.5, 0.0, view.samples - 1.0);
       const int b = std::min(static_cast<int>(beam), view.beams - 2),
                 k = std::min(static_cast<int>(sample), view.samples - 2);
       const auto share = [](double fraction) {
@@ -71,6 +74,15 @@ ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
       };
       sources_[pixel] = {b * view.samples + k, share(beam - b), share(sample - k)};
     }
+}
+
+std::optional<BeamAndDepth> ScanConverter::place(int column, int row) const noexcept {
+  const Source& source = sources_[static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.width_px) +
+                                  static_cast<std::size_t>(column)];
+  if (source.at < 0) return std::nullopt;
+  constexpr double kShare = 1.0 / 65536.0;
+  return BeamAndDepth{source.at / samples_ + kShare * source.beam_65536,
+                      (source.at % samples_ + kShare * source.sample_65536 + 0.5) * sample_mm_};
 }
 
 void ScanConverter::grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,

@@ -42,5 +42,25 @@ TEST(Scene, RefusesWhatIsNotBuiltIn) {
   EXPECT_FALSE(scene_from_json(R"({"volume": {}})", ".", unused).has_value());
 }
 
+TEST(Scene, MayShowFlowInColour) {
+  std::vector<std::string> unused;
+  const auto with = [&](const std::string& colour) {
+    return scene_from_json(R"({"volume": {"built_in": "neck"}, "view": {"kind": "ultrasound", "preset": "vessel",
+        "origin_mm": [0, 0, 0], "axial": [0, 1, 0], "lateral": [1, 0, 0], "colour": )" +
+                               colour + "}}",
+                           ".", unused);
+  };
+  const auto scene = with(R"({"scale_cm_s": 25})");
+  ASSERT_TRUE(scene.has_value()) << scene.error().text;
+  EXPECT_TRUE(unused.empty());
+  EXPECT_EQ(std::get<UltrasoundSceneView>(*scene->view).colour_mm_s, 250.0);
+  const auto off = with("null");  // as a sheet's column turns it off
+  ASSERT_TRUE(off.has_value());
+  EXPECT_EQ(std::get<UltrasoundSceneView>(*off->view).colour_mm_s, 0.0);
+  for (const char* colour : {"true", "{}", R"({"scale_cm_s": 0})"})
+    EXPECT_FALSE(with(colour).has_value()) << colour;
+  EXPECT_FALSE(with(R"({"scale_cm_s": 25}, "output": "polar_db")").has_value());
+}
+
 }  // namespace
 }  // namespace seldinger::app

@@ -15,6 +15,8 @@
 #include "session/guidance/guidance.h"
 #include "session/guidance/picture_clock.h"
 #include "session/monitor/guidance_screen.h"
+#include "sim/case/paint.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/volume/tissue/find_tissue.h"
 #include "tests/fixtures/ball_case.h"
@@ -354,6 +356,64 @@ TEST(UltrasoundConsole, AScreenThatIsWatchedShowsWhatWasTurned) {
   EXPECT_EQ(after(0.1).grey, deep.grey) << "frozen it stays, whatever is turned";
   state.probe.frozen = false;
   EXPECT_EQ(after(0.1).height_px, own.height_px);
+}
+
+// The ball with a carotid that rises through it towards the probe, and one of which nothing is known.
+TEST(UltrasoundConsole, ColourShowsFlowOverTheSameGrey) {
+  cases::Case scene = planned().scene;
+  const cases::State still = at_target(planned());
+  const glm::dvec3 middle = still.probe.origin_lps_mm + 40.0 * still.probe.axial;
+  const glm::dvec3 half = 15.0 * (glm::dvec3(0.0, 0.0, 1.0) - still.probe.axial);  // to the head, up to the probe
+  scene.structures = {{"carotid", volume::TissueClass::vessel, cases::StructureRule::critical,
+                       cases::Tube{{middle + half, middle - half}, 4.0}},
+                      {"vessel 2", volume::TissueClass::vessel, cases::StructureRule::critical,
+                       cases::Sphere{middle + glm::dvec3(0.0, 0.0, 30.0), 4.0}}};
+  for (const cases::Structure& one : scene.structures)
+    cases::paint_class(one.shape, one.tissue, scene.volume, scene.classes);
+  const auto guidance = guidance_of(scene);
+  cases::State state = still;
+  state.t_s = 0.15;
+  const GreyPicture plain = guidance->picture(state, {}, {7, 1});
+  EXPECT_TRUE(plain.colour.empty());
+  state.probe.console.colour_mm_s = 500.0;
+  const GreyPicture flow = guidance->picture(state, {}, {7, 1});
+  EXPECT_EQ(flow.grey, plain.grey);
+  ASSERT_EQ(flow.colour.size(), flow.grey.size());
+  const auto counts = [](const GreyPicture& picture) {
+    int towards = 0, away = 0;
+    for (int y = 0; y < picture.height_px; ++y)
+      for (int x = 0; x < picture.width_px - 40; ++x) {  // without the bar
+        const unsigned char number = picture.colour[static_cast<std::size_t>(y * picture.width_px + x)];
+        towards += number > imaging::kColourStill ? 1 : 0;
+        away += number > imaging::kColourEdge && number < imaging::kColourStill ? 1 : 0;
+      }
+    return std::pair{towards, away};
+  };
+  EXPECT_GT(counts(flow).first, 200) << "it comes towards the probe";
+  EXPECT_EQ(counts(flow).second, 0);
+  EXPECT_EQ(guidance->picture(state, {}, {7, 1}).colour, flow.colour) << "the same bits again";
+  EXPECT_EQ(rgba_of(flow).size(), 4 * flow.grey.size());
+  state.t_s = 0.15 + 0.4;
+  EXPECT_NE(guidance->picture(state, {}, {7, 1}).colour, flow.colour) << "it beats";
+  state.t_s = 0.15 + 3.0 * tissue::kBeatS;
+  EXPECT_EQ(guidance->picture(state, {}, {7, 1}).colour, flow.colour);
+  // Walls follow the beat: under the newest law of sight alone, and in grey as well.
+  state.probe.console = {};
+  state.t_s = 0.0;
+  const GreyPicture narrow = guidance->picture(state, {}, {7, 1});
+  state.t_s = 0.2;
+  EXPECT_NE(guidance->picture(state, {}, {7, 1}).grey, narrow.grey);
+  scene.sight_law = cases::SightLaw::echo;
+  const auto before = guidance_of(scene);
+  const GreyPicture wide_before = before->picture(state, {}, {7, 1});
+  state.t_s = 0.0;
+  EXPECT_EQ(before->picture(state, {}, {7, 1}).grey, wide_before.grey);
+  scene.sight_law = cases::kNewestSightLaw;
+  state.probe.console.colour_mm_s = 500.0;
+  // What a picture tells asks for neither.
+  cases::State off = state;
+  off.probe.console = {};
+  EXPECT_EQ(guidance->see(state, {}), guidance->see(off, {}));
 }
 
 TEST(PictureClock, KeepsItsRateAndGoesOnFromTheLastPictureAtAnother) {

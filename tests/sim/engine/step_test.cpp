@@ -65,14 +65,15 @@ TEST(Step, TheConsoleStandsAsItWasTurnedLast) {
   cases::Inputs inputs = at(-120.0);
   step(scene, inputs, 0.001, state);
   EXPECT_EQ(state.probe.console, cases::ConsoleSetting{});
-  inputs.console = {90.0, 40.0, 2.5, -3.0};
+  inputs.console = {90.0, 40.0, 2.5, -3.0, 200.0};
   step(scene, inputs, 0.001, state);
   EXPECT_EQ(state.probe.console, inputs.console);
   const cases::ConsoleSetting before = inputs.console;
   constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-  inputs.console = {kNotANumber, std::numeric_limits<double>::infinity(), 3.0, kNotANumber};
+  inputs.console = {kNotANumber, std::numeric_limits<double>::infinity(), 3.0, kNotANumber, kNotANumber};
   step(scene, inputs, 0.001, state);
-  EXPECT_EQ(state.probe.console, (cases::ConsoleSetting{before.depth_mm, before.focus_mm, 3.0, before.slice_mm}));
+  EXPECT_EQ(state.probe.console,
+            (cases::ConsoleSetting{before.depth_mm, before.focus_mm, 3.0, before.slice_mm, before.colour_mm_s}));
   // Nothing of it under a fluoroscope.
   scene.picture.modality = cases::Modality::xray;
   cases::State room;

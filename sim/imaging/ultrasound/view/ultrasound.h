@@ -118,6 +118,14 @@ struct Screen {
 };
 Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept;
 
+// Where polar coordinates lie. `beam` is continuous, 0 the first's axis.
+glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept;
+// x across and z below the face's centre, in the picture's plane → beam and depth.
+struct BeamAndDepth {
+  double beam, depth_mm;
+};
+BeamAndDepth beam_and_depth(const UltrasoundView& view, double x_mm, double z_mm) noexcept;
+
 // From polar to the screen. Pixel (c, r) shows the point x = (c − (width − 1)/2)·pixel across (flipped: −x) and
 // z = top + (r + ½)·pixel below the face's centre. Built once for a probe, depth and size.
 class ScanConverter {
@@ -127,6 +135,8 @@ class ScanConverter {
   int height_px() const noexcept { return size_.height_px; }
   double pixel_mm() const noexcept { return screen_.pixel_mm; }
   double top_mm() const noexcept { return screen_.top_mm; }
+  // Of a pixel that is never flipped; nothing outside the field. From the first beam's middle to the last's.
+  std::optional<BeamAndDepth> place(int column, int row) const noexcept;
 
   // Grey, 0 outside the field; the envelope is interpolated, then its logarithm taken. NaN shows as 255.
   void grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,
@@ -151,16 +161,9 @@ class ScanConverter {
   };
   DisplaySize size_;
   int beams_, samples_;
+  double sample_mm_;
   Screen screen_;
   std::vector<Source> sources_;
 };
-
-// Where polar coordinates lie. `beam` is continuous, 0 the first's axis.
-glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept;
-// x across and z below the face's centre, in the picture's plane → beam and depth.
-struct BeamAndDepth {
-  double beam, depth_mm;
-};
-BeamAndDepth beam_and_depth(const UltrasoundView& view, double x_mm, double z_mm) noexcept;
 
 }  // namespace seldinger::imaging

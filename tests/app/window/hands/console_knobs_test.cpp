@@ -7,6 +7,7 @@
 
 #include "app/window/hands/console_picture.h"
 #include "session/guidance/ultrasound_sight.h"
+#include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::app {
@@ -81,6 +82,26 @@ TEST(ConsoleKnobs, KeysLeadToRoundNumbersWithinWhatTheProbeCan) {
     for (int i = 0; i < 60; ++i) knobs.turn(T::range_less, false);
     EXPECT_EQ(knobs.screen.dynamic_range_db, imaging::kLeastRangeDb);
   }
+}
+
+TEST(ConsoleKnobs, ColourIsOnWithinWhatTheDepthAllowsOrOff) {
+  ConsoleKnobs knobs = begun(ultrasound(70.0));
+  knobs.turn(T::colour, true);
+  EXPECT_EQ(knobs.asked().colour_mm_s, 0.0) << "frozen";
+  knobs.turn(T::colour, false);
+  EXPECT_EQ(knobs.asked().colour_mm_s, 200.0);
+  EXPECT_EQ(knobs.preset(), 0) << "the picture below is the preset's still";
+  knobs.set_colour_mm_s(1e9);
+  EXPECT_EQ(knobs.asked().colour_mm_s, imaging::most_colour_mm_s(knobs.view()));
+  knobs.turn(T::colour, false);
+  EXPECT_EQ(knobs.asked(), cases::ConsoleSetting{});
+  const std::vector<cases::Structure> vessels = {
+      {"carotid", volume::TissueClass::vessel, cases::StructureRule::critical,
+       cases::Tube{{{0, 0, 0}, {0, 0, 9}}, 3.0}},
+      {"vessel 2", volume::TissueClass::vessel, cases::StructureRule::critical, cases::Sphere{{0, 0, 0}, 3.0}}};
+  EXPECT_NE(colour_words(vessels).find("shows the flow in carotid"), std::string::npos);
+  EXPECT_NE(colour_words(vessels).find("not known in vessel 2"), std::string::npos);
+  EXPECT_NE(colour_words({}).find("of no vessel"), std::string::npos);
 }
 
 TEST(ConsoleKnobs, FrozenOnlyTheScreenCanBeTurned) {

@@ -389,6 +389,30 @@ TEST(Recording, OfFormat5IsReadAndHasNoConsole) {
   EXPECT_EQ(impossible.error().code, "damaged");
 }
 
+TEST(Recording, FlowInColourComesBackAndTakesRoomWhereItWasShown) {
+  Recording recording = random_console_recording(4000, 5);
+  const std::size_t without = bytes_of(recording);
+  for (std::size_t i = 2500; i < 4000; ++i) recording.inputs[i].console.colour_mm_s = i < 3000 ? 200.0 : 120.5;
+  EXPECT_EQ(bytes_of(recording), without + 8 * 2000) << "in the second chunk";
+  const auto back = recording_from_chunks(chunks_from_recording(recording));
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(recording, *back);
+  auto chunks = chunks_from_recording(recording);
+  for (RecordingChunk& chunk : chunks)
+    chunk = with_bytes(chunk, [](std::vector<std::byte>& raw) { raw[4] = std::byte{7}; });
+  EXPECT_EQ(recording_from_chunks(chunks).error().code, "damaged") << "format 7 had no colour";
+}
+
+TEST(Recording, OfFormat7IsRead) {
+  const Recording recording = random_console_recording(1500, 18);
+  auto chunks = chunks_from_recording(recording);
+  for (RecordingChunk& chunk : chunks)
+    chunk = with_bytes(chunk, [](std::vector<std::byte>& raw) { raw[4] = std::byte{7}; });
+  const auto back = recording_from_chunks(chunks);
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(recording, *back);
+}
+
 TEST(Recording, OfAPatientWhoMovesComesBackBitForBit) {
   for (const bool from_the_start : {true, false}) {
     Recording recording = random_recording(6500, 18);
@@ -418,7 +442,7 @@ TEST(Recording, AnUnknownEventIsDamage) {
 
 TEST(Recording, OfAnotherFormatIsRefused) {
   const Recording recording = random_recording(100, 13);
-  for (const std::uint32_t format : {0U, 8U, 77U})
+  for (const std::uint32_t format : {0U, 9U, 77U})
     EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
               "recording_version");
   EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")
@@ -540,7 +564,7 @@ TEST(StateHash, EveryFieldOfAConsoleThatIsTurnedCounts) {
   state.probe.console = {90.0, 40.0, 2.5, -3.0};
   const std::uint64_t before = state_hash(state, 0);
   using C = ConsoleSetting;
-  for (double C::*const number : {&C::depth_mm, &C::focus_mm, &C::frequency_mhz, &C::slice_mm}) {
+  for (double C::*const number : {&C::depth_mm, &C::focus_mm, &C::frequency_mhz, &C::slice_mm, &C::colour_mm_s}) {
     State other = state;
     other.probe.console.*number += 1.0;
     EXPECT_NE(state_hash(other, 0), before);
@@ -576,6 +600,7 @@ TEST(StateHash, EveryFieldCounts) {
   EXPECT_TRUE(changes([](State& s) { s.probe.console.focus_mm = 40; }));
   EXPECT_TRUE(changes([](State& s) { s.probe.console.frequency_mhz = 2.5; }));
   EXPECT_TRUE(changes([](State& s) { s.probe.console.slice_mm = -3; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.colour_mm_s = 200; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.fired = true; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.t_s = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.tip_lps_mm.x = 1; }));

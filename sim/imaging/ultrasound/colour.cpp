@@ -1,0 +1,178 @@
+#include "sim/imaging/ultrasound/colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/check.h"
+#include "sim/base/exact_math.h"
+#include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/view/view.h"
+
+namespace seldinger::imaging {
+namespace {
+
+// Of the picture: how much of it the box takes.
+constexpr double kBoxWidth = 0.84, kBoxTop = 0.08, kBoxBottom = 0.92;
+constexpr int kBoxRows = 200;
+
+// Blood drowns later than in the grey picture: colour sends longer pulses of lower frequency, many to a place
+// (design).
+constexpr double kColourNoiseDb = kReceiverNoiseDb - 30.0, kColourSureDb = 6.0;
+constexpr double kColourShown = 0.5;  // from so sure a cell on
+
+constexpr int kBarPx = 14, kBarHeightPx = 160, kBarInsetPx = 10;
+
+// Between four cells: `beam` and `row` count from the first's.
+glm::dvec2 between(const ColourPicture& colour, double beam, double row) {
+  const int b = std::min(static_cast<int>(beam), colour.box.end_beam - colour.box.first_beam - 2),
+            k = std::min(static_cast<int>(row), colour.rows - 2);
+  const auto cell = [&](int beams_on, int rows_on) {
+    return glm::dvec2(colour.cells[static_cast<std::size_t>(b + beams_on) * static_cast<std::size_t>(colour.rows) +
+                                   static_cast<std::size_t>(k + rows_on)]);
+  };
+  return glm::mix(glm::mix(cell(0, 0), cell(1, 0), beam - b), glm::mix(cell(0, 1), cell(1, 1), beam - b), row - k);
+}
+
+}  // namespace
+
+double most_colour_mm_s(const UltrasoundView& view) noexcept {
+  const double speed_mm_s = 1e6 * shaders::kUsSpeedMmPerUs;
+  return speed_mm_s * speed_mm_s / (8.0 * 1e6 * working_mhz(view) * view.depth_mm);
+}
+
+double colour_scale_mm_s(const UltrasoundView& view, double asked_mm_s) noexcept {
+  return std::clamp(asked_mm_s, kLeastColourMmS, std::max(kLeastColourMmS, most_colour_mm_s(view)));
+}
+
+double aliased_mm_s(double towards_mm_s, double scale_mm_s) noexcept {
+  const double turns = towards_mm_s / (2.0 * scale_mm_s);
+  return 2.0 * scale_mm_s * (turns - std::floor(turns + 0.5));
+}
+
+double past_wall_filter(double aliased_mm_s, double scale_mm_s) noexcept {
+  const double share = aliased_mm_s / (kColourWallShare * scale_mm_s);
+  return share * share / (1.0 + share * share);
+}
+
+ColourBox colour_box(const UltrasoundView& view) noexcept {
+  const int beside = static_cast<int>(0.5 * (1.0 - kBoxWidth) * view.beams);
+  return {beside, view.beams - beside, kBoxTop * view.depth_mm, kBoxBottom * view.depth_mm};
+}
+
+void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                  std::span<const float> depth_below_skin_mm, const tissue::BloodFlow& flow, double asked_mm_s,
+                  double t_s, ColourPicture& picture, const tissue::Displacement& displacement) {
+  check_view(view, depth_below_skin_mm);
+  picture.box = colour_box(view);
+  picture.rows = kBoxRows;
+  picture.scale_mm_s = colour_scale_mm_s(view, asked_mm_s);
+  const ColourBox& box = picture.box;
+  picture.cells.assign(static_cast<std::size_t>(box.end_beam - box.first_beam) * kBoxRows, glm::vec2(0.0F));
+  if (flow.empty()) return;
+  const TissueAt tissue_at(tissue, inserted);
+  const Fan fan = fan_of(view);
+  const auto motion = motion_of(view, displacement);
+  const PictureMotion* moving = motion ? &*motion : nullptr;
+  const LineWalker walker(view, tissue_at, *tissue.volume, inserted, moving);
+  const double blood_db = acoustic_table()[static_cast<std::size_t>(volume::TissueClass::vessel)].scatter_db;
+  const double row_mm = (box.to_mm - box.from_mm) / kBoxRows;
+  Line line;
+  for (int beam = box.first_beam; beam < box.end_beam; ++beam) {
+    if (!beam_touches(view, depth_below_skin_mm, beam)) continue;
+    const BeamPath path = path_of(fan, moving, beam);
+    const glm::dvec3 direction = fan.direction(beam);
+    bool walked = false;
+    for (int row = 0; row < kBoxRows; ++row) {
+      const double depth_mm = box.from_mm + (row + 0.5) * row_mm;
+      const glm::dvec3 rest = path.at(depth_mm);
+      const double towards_mm_s = -glm::dot(flow.velocity_mm_s(rest, t_s), direction);
+      if (towards_mm_s == 0.0) continue;
+      if (!walked) walker.walk(beam, true, line);
+      walked = true;
+      const auto sample = std::min(static_cast<std::size_t>(depth_mm / fan.sample_mm), line.loss_db.size() - 1);
+      const double heard = std::clamp(
+          (blood_db - static_cast<double>(line.loss_db[sample]) - kColourNoiseDb) / kColourSureDb, 0.0, 1.0);
+      const double speed = aliased_mm_s(towards_mm_s, picture.scale_mm_s);
+      const double sure = heard * past_wall_filter(speed, picture.scale_mm_s);
+      const double angle = std::numbers::pi * speed / picture.scale_mm_s;
+      picture.cells[static_cast<std::size_t>(beam - box.first_beam) * kBoxRows + static_cast<std::size_t>(row)] =
+          glm::vec2(sure * base::exact_cos(angle), sure * base::exact_sin(angle));
+    }
+  }
+}
+
+void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs, const ColourPicture& colour,
+                    std::vector<unsigned char>& numbers) {
+  const int width = converter.width_px(), height = converter.height_px();
+  const int beams = colour.box.end_beam - colour.box.first_beam, rows = colour.rows;
+  CHECK(beams > 1 && rows > 1);
+  CHECK(colour.cells.size() == static_cast<std::size_t>(beams) * static_cast<std::size_t>(rows));
+  const auto at = [&](int c, int r) {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c);
+  };
+  const double row_mm = (colour.box.to_mm - colour.box.from_mm) / rows;
+  numbers.assign(at(0, height), kNoColour);
+  std::vector<unsigned char> inside(numbers.size(), 0);
+  for (int r = 0; r < height; ++r)
+    for (int c = 0; c < width; ++c) {
+      const auto place = converter.place(c, r);
+      if (!place) continue;
+      const double beam = place->beam - colour.box.first_beam,
+                   row = (place->depth_mm - colour.box.from_mm) / row_mm;
+      if (beam < 0.0 || beam > beams - 1.0 || row < 0.0 || row > rows) continue;
+      inside[at(c, r)] = 1;
+      const glm::dvec2 mean = between(colour, beam, std::clamp(row - 0.5, 0.0, rows - 1.0));
+      const double sure = std::sqrt(mean.x * mean.x + mean.y * mean.y);
+      if (sure < kColourShown) continue;
+      // Half the angle, whose tangent has no second meaning.
+      const double share = 2.0 / std::numbers::pi * base::exact_atan(mean.y / std::max(sure + mean.x, 1e-12));
+      numbers[at(c, r)] = static_cast<unsigned char>(kColourStill + std::lround(kColourSteps * share));
+    }
+  for (int r = 1; r + 1 < height; ++r)
+    for (int c = 1; c + 1 < width; ++c)
+      if (inside[at(c, r)] != 0 &&
+          (inside[at(c - 1, r)] & inside[at(c + 1, r)] & inside[at(c, r - 1)] & inside[at(c, r + 1)]) == 0)
+        numbers[at(c, r)] = kColourEdge;
+  if (knobs.flip)
+    for (int r = 0; r < height; ++r)
+      std::reverse(numbers.begin() + static_cast<std::ptrdiff_t>(at(0, r)),
+                   numbers.begin() + static_cast<std::ptrdiff_t>(at(0, r + 1)));
+  for (int r = 0; r < std::min(kBarHeightPx, height - kBarInsetPx); ++r)
+    for (int c = std::max(0, width - kBarInsetPx - kBarPx); c < width - kBarInsetPx; ++c)
+      numbers[at(c, r + kBarInsetPx)] = static_cast<unsigned char>(
+          kColourStill + std::lround(kColourSteps * (1.0 - 2.0 * r / (kBarHeightPx - 1.0))));
+}
+
+const std::array<std::array<unsigned char, 3>, 256>& colour_table() noexcept {
+  static const auto table = [] {
+    std::array<std::array<unsigned char, 3>, 256> made{};
+    made[kColourEdge] = {150, 190, 150};
+    for (int step = -kColourSteps; step <= kColourSteps; ++step) {
+      const double share = std::abs(static_cast<double>(step)) / kColourSteps;
+      const auto full = static_cast<unsigned char>(std::lround(255.0 * std::min(1.0, 0.4 + 0.9 * share)));
+      const auto added = static_cast<unsigned char>(std::lround(230.0 * std::max(0.0, (share - 0.35) / 0.65)));
+      auto& one = made[static_cast<std::size_t>(kColourStill + step)];
+      if (step > 0) one = {full, added, 0};
+      if (step < 0) one = {0, added, full};
+    }
+    return made;
+  }();
+  return table;
+}
+
+std::vector<unsigned char> in_colour(std::span<const unsigned char> grey, std::span<const unsigned char> numbers) {
+  CHECK(grey.size() == numbers.size());
+  std::vector<unsigned char> rgb;
+  rgb.reserve(3 * grey.size());
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    for (int channel = 0; channel < 3; ++channel)
+      rgb.push_back(numbers[i] == kNoColour ? grey[i]
+                                            : colour_table()[numbers[i]][static_cast<std::size_t>(channel)]);
+  return rgb;
+}
+
+}  // namespace seldinger::imaging

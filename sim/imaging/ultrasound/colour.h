@@ -1,0 +1,62 @@
+// Colour Doppler: how fast blood comes towards the probe, in a box over the grey picture. By the CPU whatever draws
+// the grey below it, so that its bits are the same beside both (docs/decisions/0085).
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "sim/imaging/ultrasound/view/ultrasound.h"
+#include "sim/tissue/blood_flow.h"
+
+namespace seldinger::imaging {
+
+// The speed from which on colours wrap around. Pulses follow each other no sooner than sound comes back from the
+// picture's lower edge: c²/(8·f·depth) at most. What is asked is brought into range.
+constexpr double kLeastColourMmS = 20.0;
+double most_colour_mm_s(const UltrasoundView& view) noexcept;
+double colour_scale_mm_s(const UltrasoundView& view, double asked_mm_s) noexcept;
+
+// Slower than this share of the scale counts as tissue that moves: the wall filter takes it away.
+constexpr double kColourWallShare = 0.06;
+
+// What a speed towards the probe (< 0: away) is taken for: into −scale … scale by whole turns.
+double aliased_mm_s(double towards_mm_s, double scale_mm_s) noexcept;
+// What the wall filter leaves of its echo, 0 to 1; a half at kColourWallShare.
+double past_wall_filter(double aliased_mm_s, double scale_mm_s) noexcept;
+
+// The box: the middle of the picture.
+struct ColourBox {
+  int first_beam = 0, end_beam = 0;
+  double from_mm = 0.0, to_mm = 0.0;
+};
+ColourBox colour_box(const UltrasoundView& view) noexcept;
+
+// One complex number a cell, cells of one beam together, from the box's upper edge down: its angle is π times the
+// share of the scale, > 0 towards the probe; its length how sure it is, 0 to 1. So cells may be averaged, though
+// speeds wrap around (Kasai et al., IEEE Trans. Sonics Ultrason. 32 (1985) 458).
+struct ColourPicture {
+  ColourBox box;
+  int rows = 0;
+  double scale_mm_s = 0.0;
+  std::vector<glm::vec2> cells;
+};
+
+// As ultrasound_polar's. Where blood's echo drowns, or nothing touches the skin, there is no colour.
+void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                  std::span<const float> depth_below_skin_mm, const tissue::BloodFlow& flow, double asked_mm_s,
+                  double t_s, ColourPicture& picture, const tissue::Displacement& displacement = {});
+
+// Numbers of colours, in the place of grey: 0 where grey shows, then the box's edge, then speeds from away to
+// towards; with a bar of them in the upper right corner.
+constexpr unsigned char kNoColour = 0, kColourEdge = 1, kColourStill = 128;
+constexpr int kColourSteps = 126;  // to either side of still
+void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs, const ColourPicture& colour,
+                    std::vector<unsigned char>& numbers);
+// Red, green, blue of each number: towards the probe red to yellow, away blue to cyan.
+const std::array<std::array<unsigned char, 3>, 256>& colour_table() noexcept;
+// Three bytes a pixel; `numbers` as large as `grey`.
+std::vector<unsigned char> in_colour(std::span<const unsigned char> grey, std::span<const unsigned char> numbers);
+
+}  // namespace seldinger::imaging
