@@ -1,5 +1,6 @@
-// Solid organs of a CT without labels, by classical means: an even piece of one level, in the organ's place, of its
-// size, that is parted from all else. What is not sure is left to be soft tissue (docs/decisions/0074).
+// Organs of a CT without labels, by classical means: solid ones are even pieces of one level, in the organ's place,
+// of its size, parted from all else; lungs, vertebrae and ribs are told by shape and place, great vessels are tubes
+// along the spine. What is not sure is left to be what its class says (docs/decisions/0074, 0086).
 #pragma once
 
 #include <cstdint>
@@ -10,18 +11,36 @@
 
 namespace seldinger::volume {
 
-enum class FoundOrgan : std::uint8_t { none, liver, spleen, right_kidney, left_kidney };
+enum class FoundOrgan : std::uint8_t {
+  none,
+  liver,
+  spleen,
+  right_kidney,
+  left_kidney,
+  right_lung,
+  left_lung,
+  vertebrae,
+  ribs,
+  aorta,
+  vena_cava,
+};
 inline constexpr auto kFoundOrganNames = base::names<FoundOrgan>({{FoundOrgan::none, "none"},
                                                                   {FoundOrgan::liver, "liver"},
                                                                   {FoundOrgan::spleen, "spleen"},
                                                                   {FoundOrgan::right_kidney, "right_kidney"},
-                                                                  {FoundOrgan::left_kidney, "left_kidney"}});
+                                                                  {FoundOrgan::left_kidney, "left_kidney"},
+                                                                  {FoundOrgan::right_lung, "right_lung"},
+                                                                  {FoundOrgan::left_lung, "left_lung"},
+                                                                  {FoundOrgan::vertebrae, "vertebrae"},
+                                                                  {FoundOrgan::ribs, "ribs"},
+                                                                  {FoundOrgan::aorta, "aorta"},
+                                                                  {FoundOrgan::vena_cava, "vena_cava"}});
 
 struct OrganFound {
   FoundOrgan organ = FoundOrgan::none;
   double confidence = 0.0;  // 0 to 1
   double ml = 0.0;
-  int level_hu = 0;
+  int level_hu = 0;  // its median
 };
 
 // On a grid of 3 mm along the patient's axes.
