@@ -44,7 +44,8 @@ constexpr std::array<Colour, volume::kFoundOrganNames.size()> kOrganColours{{{0,
                                                                              {255, 255, 120},  // vertebrae
                                                                              {200, 160, 0},    // ribs
                                                                              {255, 0, 0},      // aorta
-                                                                             {0, 0, 255}}};    // vena cava
+                                                                             {0, 0, 255},      // vena cava
+                                                                             {0, 255, 255}}};  // bladder
 
 bool is_black(const Colour& colour) {
   return colour.red == 0 && colour.green == 0 && colour.blue == 0;

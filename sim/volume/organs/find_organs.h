@@ -23,6 +23,7 @@ enum class FoundOrgan : std::uint8_t {
   ribs,
   aorta,
   vena_cava,
+  bladder,
 };
 inline constexpr auto kFoundOrganNames = base::names<FoundOrgan>({{FoundOrgan::none, "none"},
                                                                   {FoundOrgan::liver, "liver"},
@@ -34,7 +35,8 @@ inline constexpr auto kFoundOrganNames = base::names<FoundOrgan>({{FoundOrgan::n
                                                                   {FoundOrgan::vertebrae, "vertebrae"},
                                                                   {FoundOrgan::ribs, "ribs"},
                                                                   {FoundOrgan::aorta, "aorta"},
-                                                                  {FoundOrgan::vena_cava, "vena_cava"}});
+                                                                  {FoundOrgan::vena_cava, "vena_cava"},
+                                                                  {FoundOrgan::bladder, "bladder"}});
 
 struct OrganFound {
   FoundOrgan organ = FoundOrgan::none;

@@ -11,24 +11,25 @@ namespace seldinger::volume {
 namespace {
 
 // Where an organ lies from the spine (LPS: +x left, +y back), its size, adults' and children's, and its level:
-// above that of muscle, 55 to 65 HU (Bae, Radiology 2010;256:32), which lies beside every organ.
+// above that of muscle, 55 to 65 HU (Bae, Radiology 2010;256:32), which lies beside every organ; of urine, water's.
 struct OrganLaw {
   FoundOrgan organ;
   glm::dvec2 low_mm, high_mm;  // of its centre from the spine
   double least_ml, most_ml;
-  int least_hu;
+  int least_hu, most_hu;
   double wide_hu;      // to each side of its level: a kidney has cortex and medulla
   double reach_mm;     // a neck thinner than twice this parts it from others
   double compactness;  // least; of a ball 1
 };
-constexpr std::array<OrganLaw, 4> kLaws{{
-    {FoundOrgan::right_kidney, {-95.0, -45.0}, {-25.0, 40.0}, 60.0, 350.0, 100, 30.0, 6.0, 0.45},
-    {FoundOrgan::left_kidney, {25.0, -45.0}, {95.0, 40.0}, 60.0, 350.0, 100, 30.0, 6.0, 0.45},
-    {FoundOrgan::liver, {-130.0, -130.0}, {0.0, 0.0}, 500.0, 3000.0, 78, 12.0, 12.0, 0.35},
-    {FoundOrgan::spleen, {70.0, -60.0}, {150.0, 60.0}, 60.0, 700.0, 78, 12.0, 6.0, 0.4},
+constexpr std::array<OrganLaw, 5> kLaws{{
+    {FoundOrgan::right_kidney, {-95.0, -45.0}, {-25.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45},
+    {FoundOrgan::left_kidney, {25.0, -45.0}, {95.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45},
+    {FoundOrgan::liver, {-130.0, -130.0}, {0.0, 0.0}, 500.0, 3000.0, 78, 260, 12.0, 12.0, 0.35},
+    {FoundOrgan::spleen, {70.0, -60.0}, {150.0, 60.0}, 60.0, 700.0, 78, 260, 12.0, 6.0, 0.4},
+    {FoundOrgan::bladder, {-35.0, -140.0}, {35.0, -15.0}, 40.0, 800.0, -10, 26, 10.0, 6.0, 0.5},
 }};
 constexpr double kHardlyParted = 0.6;  // of its faces: what is joined to more is no organ of its own
-constexpr int kMostHu = 260, kStepHu = 4;
+constexpr int kStepHu = 4;
 
 class Finder {
  public:
@@ -37,7 +38,7 @@ class Finder {
 
   std::optional<Part> find(const OrganLaw& law) const {
     std::optional<Part> best;
-    for (int level = law.least_hu; level <= kMostHu; level += kStepHu)
+    for (int level = law.least_hu; level <= law.most_hu; level += kStepHu)
       for (Part& one : pieces(law, level))
         if (!best || one.found.confidence > best->found.confidence) best = std::move(one);
     return best;
@@ -50,6 +51,8 @@ class Finder {
     for (std::size_t at = 0; at < alike.size(); ++at)
       alike[at] = grid_.soft[at] != 0 && std::abs(double{grid_.level_hu[at]} - level) <= wide_hu ? 1 : 0;
     std::vector<Part> made;
+    const auto count = static_cast<std::size_t>(std::count(alike.begin(), alike.end(), 1));
+    if (ml_of(count) < law.least_ml / 2.0) return made;  // its edge is the rest
     for (const Voxels& cores : lattice_.pieces(lattice_.eroded(alike, law.reach_mm))) {
       if (ml_of(cores.size()) < 0.02 * law.least_ml || ml_of(cores.size()) > law.most_ml) continue;
       if (auto one = judged(law, level, alike, cores)) made.push_back(std::move(*one));
@@ -104,6 +107,7 @@ class Finder {
     if (!(off_mm.x >= law.low_mm.x && off_mm.y >= law.low_mm.y && off_mm.x <= law.high_mm.x &&
           off_mm.y <= law.high_mm.y))
       return std::nullopt;
+    if (law.organ == FoundOrgan::bladder && !between_hips(glm::ivec3(glm::round(centre)))) return std::nullopt;
     made.found.organ = law.organ;
     made.found.level_hu = level;
     made.found.ml = ml_of(made.voxels.size());
@@ -121,6 +125,20 @@ class Finder {
     if (compact < law.compactness) return std::nullopt;
     made.found.confidence = std::clamp((parted - kHardlyParted) / (1.0 - kHardlyParted), 0.0, 1.0);
     return made;
+  }
+
+  // Bone at both sides, of hip or thigh.
+  bool between_hips(const glm::ivec3& p) const {
+    constexpr double kNearMm = 24.0, kFarMm = 120.0;
+    const auto bone_at = [&](int side) {
+      for (int off = static_cast<int>(kNearMm / kOrganGridMm); off <= static_cast<int>(kFarMm / kOrganGridMm);
+           ++off)
+        if (const glm::ivec3 q = p + glm::ivec3(side * off, 0, 0);
+            lattice_.holds(q) && grid_.bone[lattice_.at(q)] != 0)
+          return true;
+      return false;
+    };
+    return bone_at(-1) && bone_at(1);
   }
 
   const OrganGrid& grid_;

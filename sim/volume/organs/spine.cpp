@@ -29,20 +29,28 @@ std::vector<glm::dvec2> middle_of_back(const OrganGrid& grid) {
         if (grid.bone[lattice.at({i, j, k})] != 0 && std::abs(i - middle) * kOrganGridMm <= kAsideMm)
           sums[static_cast<std::size_t>(k)] += glm::dvec3(i, j, 1);
   }
-  std::vector<glm::dvec2> made(sums.size());
+  std::vector<std::optional<glm::dvec2>> found(sums.size());
   for (int k = 0; k < n.z; ++k) {
     glm::dvec3 sum(0.0);
     for (int z = std::max(0, k - kAround); z <= std::min(n.z - 1, k + kAround); ++z)
       sum += sums[static_cast<std::size_t>(z)];
-    if (sum.z == 0.0) return {};
-    made[static_cast<std::size_t>(k)] = glm::dvec2(sum) / sum.z * kOrganGridMm;
+    if (sum.z > 0.0) found[static_cast<std::size_t>(k)] = glm::dvec2(sum) / sum.z * kOrganGridMm;
   }
+  for (std::size_t k = 1; k < found.size(); ++k)
+    if (!found[k]) found[k] = found[k - 1];
+  for (std::size_t k = found.size(); k-- > 1;)
+    if (!found[k - 1]) found[k - 1] = found[k];
+  std::vector<glm::dvec2> made;
+  for (const auto& one : found)
+    if (one) made.push_back(*one);
   return made;
 }
 
 Spine find_spine(const OrganGrid& grid, const std::vector<glm::dvec2>& middle_mm) {
   constexpr double kThickMm = 6.0;  // half of what the least body of an adult's neck measures, 12 to 14 mm
-  constexpr double kAsideMm = 30.0, kAheadMm = 45.0, kBehindMm = 30.0;
+  constexpr double kAsideMm =
+      20.0;  // and 6 mm more are 55 mm across, a wide lumbar body; hip bones lie farther aside
+  constexpr double kAheadMm = 45.0, kBehindMm = 30.0;
   constexpr int kAround = 5;  // 15 mm: more than a disc
   const Lattice lattice(grid.volume.size_voxels);
   const glm::ivec3 n = lattice.size();

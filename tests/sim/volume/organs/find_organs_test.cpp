@@ -21,9 +21,10 @@ constexpr std::size_t kFoundOrgans = kFoundOrganNames.size();
 FoundOrgan organ_of(const std::string& label, double x_lps_mm) {
   if (label == "liver") return FoundOrgan::liver;
   if (label == "spleen") return FoundOrgan::spleen;
+  if (label == "bladder") return FoundOrgan::bladder;
   if (label == "aorta") return FoundOrgan::aorta;
   if (label == "vena_cava") return FoundOrgan::vena_cava;
-  if (label == "spine") return FoundOrgan::vertebrae;
+  if (label == "spine" || label == "sacrum") return FoundOrgan::vertebrae;
   if (label == "rib") return FoundOrgan::ribs;
   if (label == "lung") return x_lps_mm < 0.0 ? FoundOrgan::right_lung : FoundOrgan::left_lung;
   if (label == "kidney") return x_lps_mm < 0.0 ? FoundOrgan::right_kidney : FoundOrgan::left_kidney;
@@ -103,8 +104,8 @@ double least_dice(FoundOrgan organ) {
   switch (organ) {
     case FoundOrgan::aorta:
       return 0.86;
-    case FoundOrgan::vertebrae:
-      return 0.82;
+    case FoundOrgan::vertebrae:  // of a sacrum the middle
+      return 0.65;
     case FoundOrgan::ribs:
     case FoundOrgan::vena_cava:
       return 0.0;
@@ -131,11 +132,13 @@ TEST(Organs, OfTheTorsoAreThoseOfItsLabels) {
       const std::string of = name_of(phase) + ", " + std::to_string(spacing_mm) + " mm";
       tell(of, organs, with);
       for (std::size_t organ = 1; organ < kFoundOrgans; ++organ) {
+        if (FoundOrgan(organ) == FoundOrgan::bladder) continue;  // below what the torso shows
         EXPECT_TRUE(named(organs)[organ]) << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
       }
       expect_right(of, organs, with);
       for (const FoundOrgan organ : {FoundOrgan::ribs, FoundOrgan::vena_cava})
         EXPECT_GE(with.dice[static_cast<std::size_t>(organ)], 0.55) << of;
+      EXPECT_GE(with.dice[static_cast<std::size_t>(FoundOrgan::vertebrae)], 0.9) << of;
     }
 }
 
@@ -158,6 +161,14 @@ TEST(Organs, AreNamedRightlyOrNotAtAll) {
   for (const Region region : {Region::groin, Region::neck}) {
     const Phantom made = make_phantom({.spacing_mm = glm::dvec3(3.0), .region = region});
     expect_right_of(std::string(base::name_of(kRegionNames, region)), made.volume, made.labels);
+  }
+}
+
+TEST(Organs, TheBladderIsTheGroinsAndNoOthers) {
+  for (const Region region : {Region::groin, Region::torso}) {
+    const Phantom made = make_phantom({.spacing_mm = glm::dvec3(3.0), .region = region});
+    const Organs organs = find_organs(made.volume, tissue_classes(made.volume));
+    EXPECT_EQ(named(organs)[static_cast<std::size_t>(FoundOrgan::bladder)], region == Region::groin);
   }
 }
 
