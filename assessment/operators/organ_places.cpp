@@ -38,22 +38,18 @@ OrganPlaces::OrganPlaces(const volume::Organs& organs)
     if (!lungs_[k - 1]) lungs_[k - 1] = lungs_[k];
 }
 
-volume::FoundOrgan OrganPlaces::organ_at(const glm::dvec3& lps_mm) const {
-  const glm::ivec3 at(glm::round(glm::dvec3(grid_from_lps_ * glm::dvec4(lps_mm, 1.0))));
-  if (at != glm::clamp(at, glm::ivec3(0), organs_.grid.size_voxels - 1)) return volume::FoundOrgan::none;
-  return organs_.at[organs_.grid.index(at.x, at.y, at.z)];
-}
-
 std::optional<int> OrganPlaces::rank(const glm::dvec3& center_lps_mm, double radius_mm) const {
-  const volume::FoundOrgan organ = organ_at(center_lps_mm);
+  const auto organ = volume::organ_at(organs_, center_lps_mm);
   const std::array<glm::dvec3, 6> around{{{radius_mm, 0, 0},
                                           {-radius_mm, 0, 0},
                                           {0, radius_mm, 0},
                                           {0, -radius_mm, 0},
                                           {0, 0, radius_mm},
                                           {0, 0, -radius_mm}}};
-  if (is_solid(organ) && std::all_of(around.begin(), around.end(),
-                                     [&](const glm::dvec3& off) { return organ_at(center_lps_mm + off) == organ; }))
+  if (organ && is_solid(organ->organ) && std::all_of(around.begin(), around.end(), [&](const glm::dvec3& off) {
+        const auto there = volume::organ_at(organs_, center_lps_mm + off);
+        return there && there->organ == organ->organ;
+      }))
     return 0;
   const glm::ivec3 at(glm::round(glm::dvec3(grid_from_lps_ * glm::dvec4(center_lps_mm, 1.0))));
   const auto& lungs = lungs_[static_cast<std::size_t>(std::clamp(at.z, 0, organs_.grid.size_voxels.z - 1))];

@@ -17,8 +17,6 @@ class OrganPlaces {
   std::optional<int> rank(const glm::dvec3& center_lps_mm, double radius_mm) const;
 
  private:
-  volume::FoundOrgan organ_at(const glm::dvec3& lps_mm) const;
-
   struct Span {  // of both lungs in a slice of the grid, in voxels
     int right = 0, left = 0;
   };

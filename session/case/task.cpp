@@ -45,7 +45,7 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   tell(1.0);
   plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl, row->subject};
   if (scene->breathing) plan->ct_level = scene->breathing->ct_level;
-  return Task{*row, *found, std::move(*scene), *plan};
+  return Task{*row, *found, std::move(*scene), *plan, {}};
 }
 
 casedb::AttemptHead head_of(const Task& task, const Program& program, std::string operator_name, std::uint64_t seed,

@@ -1,11 +1,23 @@
 #include "sim/volume/organs/find_organs.h"
 
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
+
 #include "sim/base/check.h"
 #include "sim/volume/organs/chest.h"
 #include "sim/volume/organs/great_vessels.h"
 #include "sim/volume/organs/solid_organs.h"
 
 namespace seldinger::volume {
+
+std::optional<OrganFound> organ_at(const Organs& organs, const glm::dvec3& lps_mm) {
+  const glm::ivec3 at(glm::round(glm::dvec3(voxel_from_lps(organs.grid) * glm::dvec4(lps_mm, 1.0))));
+  if (at != glm::clamp(at, glm::ivec3(0), organs.grid.size_voxels - 1)) return std::nullopt;
+  const FoundOrgan organ = organs.at[organs.grid.index(at.x, at.y, at.z)];
+  for (const OrganFound& one : organs.found)
+    if (organ != FoundOrgan::none && one.organ == organ) return one;
+  return std::nullopt;
+}
 
 Organs find_organs(const Volume& volume, const std::vector<TissueClass>& classes) {
   CHECK(classes.size() == volume.hu.size());

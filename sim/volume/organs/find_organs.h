@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "sim/base/names.h"
@@ -52,6 +54,9 @@ struct Organs {
   std::vector<OrganFound> found;  // also those without enough confidence, which `at` does not show
 };
 constexpr double kOrganConfidence = 0.5;  // from here on it is named
+
+// What is named at a point of the patient; nothing where nothing is, and beyond the CT.
+std::optional<OrganFound> organ_at(const Organs& organs, const glm::dvec3& lps_mm);
 
 // Classes: as many as voxels (CHECK). Same input, same answer; one thread.
 Organs find_organs(const Volume& volume, const std::vector<TissueClass>& classes);
