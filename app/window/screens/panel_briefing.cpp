@@ -102,7 +102,7 @@ void draw_plan(const session::Task& task) {
   const double depth_mm = -task.scene.skin_index.closest(target.center_lps_mm).distance_mm;
   fact("Target", reports::number_text(2.0 * target.radius_mm, 0) + " mm across, its middle " +
                      reports::number_text(depth_mm, 0) + " mm below the nearest skin");
-  if (task.organ) fact("In the", organ_words(*task.organ));
+  if (task.organ) fact("Organ", organ_words(*task.organ));
   const auto way = session::planned_way(task.scene);
   if (!way) return;
   fact("Proposed path", way_words(*way));
