@@ -211,6 +211,7 @@ TEST(FindLesionSite, LiesInAnOrganThatIsNamed) {
       ball({{volume::Sphere{{-40, -20, 0}, 24.0}, 60.0, ""}, {volume::Sphere{{40, -20, 0}, 24.0}, 110.0, ""}});
   volume::Organs organs;
   organs.grid = volume::make_volume({70, 70, 70}, glm::dvec3(3.0), glm::dmat3(1.0), glm::dvec3(-104.0));
+  organs.found = {{volume::FoundOrgan::liver, 0.9, 58.0, 60}};
   const auto name = [&](const glm::dvec3& center_mm, double radius_mm, volume::FoundOrgan organ) {
     organs.at.resize(organs.grid.hu.size(), volume::FoundOrgan::none);
     for (int k = 0; k < 70; ++k)
