@@ -140,17 +140,6 @@ int run_import(const Arguments& arguments) {
   return kDone;
 }
 
-void tell_organ(const volume::Organs& organs, PointSample& sample) {
-  const glm::dvec3 index(volume::voxel_from_lps(organs.grid) * glm::dvec4(sample.lps_mm, 1.0));
-  const glm::ivec3 nearest =
-      glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), organs.grid.size_voxels - 1);
-  const volume::FoundOrgan organ = organs.at[organs.grid.index(nearest.x, nearest.y, nearest.z)];
-  if (organ == volume::FoundOrgan::none) return;
-  sample.organ = base::name_of(volume::kFoundOrganNames, organ);
-  for (const volume::OrganFound& one : organs.found)
-    if (one.organ == organ) sample.organ_confidence = one.confidence;
-}
-
 int run_sample(const Arguments& arguments) {
   arguments.required("--lps");
   std::vector<PointSample> samples;
@@ -185,7 +174,11 @@ int run_sample(const Arguments& arguments) {
     const std::size_t at = volume->index(nearest.x, nearest.y, nearest.z);
     sample.tissue = volume::about((*classes)[at]).name;
     if (labels) sample.label = labels->names[labels->label[at]];
-    if (organs) tell_organ(*organs, sample);
+    if (organs)
+      if (const auto organ = volume::organ_at(*organs, sample.lps_mm)) {
+        sample.organ = base::name_of(volume::kFoundOrganNames, organ->organ);
+        sample.organ_confidence = organ->confidence;
+      }
   }
   if (arguments.has("--json")) {
     std::fputs(json_of_samples(samples).c_str(), stdout);

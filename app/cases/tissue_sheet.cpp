@@ -34,8 +34,18 @@ constexpr std::array<Colour, volume::kTissueClasses> kClassColours{{
     {255, 190, 110},  // bone
     {255, 0, 255},    // metal
 }};
-constexpr std::array<Colour, volume::kFoundOrganNames.size()> kOrganColours{
-    {{0, 0, 0}, {255, 130, 40}, {170, 80, 255}, {60, 220, 60}, {60, 220, 160}}};
+constexpr std::array<Colour, volume::kFoundOrganNames.size()> kOrganColours{{{0, 0, 0},
+                                                                             {255, 130, 40},   // liver
+                                                                             {170, 80, 255},   // spleen
+                                                                             {60, 220, 60},    // right kidney
+                                                                             {60, 220, 160},   // left kidney
+                                                                             {60, 120, 255},   // right lung
+                                                                             {100, 200, 255},  // left lung
+                                                                             {255, 255, 120},  // vertebrae
+                                                                             {200, 160, 0},    // ribs
+                                                                             {255, 0, 0},      // aorta
+                                                                             {0, 0, 255},      // vena cava
+                                                                             {0, 255, 255}}};  // bladder
 
 bool is_black(const Colour& colour) {
   return colour.red == 0 && colour.green == 0 && colour.blue == 0;

@@ -8,6 +8,8 @@
 #include "casedb/import/ct_rules.h"
 #include "session/case/case_build.h"
 #include "session/guidance/ultrasound_sight.h"
+#include "sim/volume/organs/find_organs.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "sim/volume/volume_bytes.h"
 
 namespace seldinger::app {
@@ -25,9 +27,15 @@ cases::Modality modality_of(const Arguments& arguments) {
   return *modality;
 }
 
-base::Result<cases::Lesion> lesion_in(const cases::Case& scene) {
+base::Result<cases::Lesion> lesion_in(const cases::Case& scene, bool labelled) {
   const cases::Modality modality = scene.picture.modality;
   assessment::LesionRule rule = assessment::lesion_rule(modality, scene.position);
+  std::optional<volume::Organs> organs;
+  if (!labelled) {
+    organs = volume::find_organs(scene.volume,
+                                 scene.classes.empty() ? volume::tissue_classes(scene.volume) : scene.classes);
+    rule.organs = &*organs;
+  }
   if (modality == cases::Modality::ultrasound) {
     rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
       return session::UltrasoundSight(scene).looks_from(plan, target);
@@ -50,7 +58,7 @@ base::Result<DemoCaseFound> with_lesion(casedb::Library& library, casedb::CaseRo
     const auto scene =
         session::build_case(library, row, std::nullopt, picture_of(row.modality), session::needs_of(row.modality));
     if (!scene) return scene.error();
-    const auto lesion = lesion_in(*scene);
+    const auto lesion = lesion_in(*scene, !row.labels_sha256.empty());
     if (!lesion) return lesion.error();
     if (const auto added = casedb::add_lesion(library, row.case_id, *lesion); !added) return added.error();
     lesions = casedb::list_lesions(library, row.case_id);
@@ -108,7 +116,8 @@ base::Result<DemoCaseFound> demo_case(std::optional<casedb::Library>& library, M
     if (auto thin = casedb::thin_slab(made->volume)) made->warnings.push_back(std::move(*thin));
   }
   if (modality == cases::Modality::mpr) made->title += ", CT slices";
-  const auto lesion = lesion_in(session::build_case(*made, picture_of(modality), session::needs_of(modality)));
+  const auto lesion = lesion_in(session::build_case(*made, picture_of(modality), session::needs_of(modality)),
+                                made->labels.has_value());
   if (!lesion) return with_warnings(lesion.error(), made->warnings);
   if (!library) {
     auto created = casedb::Library::open_or_create(folder.path());

@@ -5,12 +5,16 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <sstream>
+#include <tuple>
+
+#include "assessment/operators/organ_places.h"
 
 namespace seldinger::assessment {
 namespace {
 
 struct Candidate {
   glm::dvec3 center_lps_mm;
+  int rank;  // as OrganPlaces
   double mean_hu, sd_hu;
 };
 
@@ -79,7 +83,8 @@ std::string describe(const LesionRule& rule) {
   text << "a sphere of " << 2 * rule.radius_mm << " mm diameter, " << rule.min_depth_mm << "–" << rule.max_depth_mm
        << " mm below the skin, where soft tissue (mean " << rule.min_mean_hu << "–" << rule.max_mean_hu
        << " HU) is most homogeneous within " << rule.homogeneous_radius_mm
-       << " mm, on a straight path free of bone and gas"
+       << " mm (of a CT without labels within a solid organ that it names, if any, and not beside the lungs), on a "
+          "straight path free of bone and gas"
        << (rule.modality == cases::Modality::xray         ? ", filled with contrast agent"
            : rule.modality == cases::Modality::ultrasound ? ", filled with fluid, seen by a probe beside the path"
                                                           : "");
@@ -99,6 +104,8 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
   for (const glm::dvec3& d : ball(rule.homogeneous_radius_mm, 4.0))
     around.push_back(glm::ivec3(std::lround(d.x / volume.spacing_mm.x), std::lround(d.y / volume.spacing_mm.y),
                                 std::lround(d.z / volume.spacing_mm.z)));
+  std::optional<OrganPlaces> places;
+  if (rule.organs != nullptr) places.emplace(*rule.organs);
   std::vector<Candidate> candidates;
   for (int k = 0; k < size.z; k += stride.z)
     for (int j = 0; j < size.y; j += stride.y)
@@ -124,11 +131,14 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
         if (!fits) continue;
         const double n = static_cast<double>(around.size()), mean = sum / n;
         if (mean < rule.min_mean_hu || mean > rule.max_mean_hu) continue;
-        candidates.push_back({glm::dvec3(volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0)), mean,
-                              std::sqrt(std::max(0.0, sum2 / n - mean * mean))});
+        const glm::dvec3 center_lps_mm(volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0));
+        const std::optional<int> rank = places ? places->rank(center_lps_mm, rule.radius_mm) : 1;
+        if (!rank) continue;
+        candidates.push_back({center_lps_mm, *rank, mean, std::sqrt(std::max(0.0, sum2 / n - mean * mean))});
       }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.sd_hu < b.sd_hu; });
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.rank, a.sd_hu) < std::tie(b.rank, b.sd_hu);
+  });
   PathLimits limits = path_limits(rule.modality, rule.position);
   limits.min_depth_mm = rule.min_depth_mm;
   limits.max_depth_mm = rule.max_depth_mm;

@@ -5,6 +5,7 @@
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/form/mesh_index.h"
+#include "sim/volume/organs/find_organs.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::assessment {
@@ -19,6 +20,9 @@ struct LesionRule {
   double grid_mm = 6.0;
   cases::Modality modality = cases::Modality::mpr;
   cases::PatientPosition position = cases::PatientPosition::supine;
+  // Of a CT without labels: a place within a solid organ that is named comes before all others, and none is taken
+  // beside the lungs (organ_places.h). Nothing: nobody asked.
+  const volume::Organs* organs = nullptr;
   // As PathLimits::looks_from, of a plan to this lesion.
   std::function<std::optional<ProbeView>(const PuncturePlan&, const cases::Lesion&)> looks_from{};
 };
@@ -37,8 +41,8 @@ struct LesionSite {
 // One sentence: the rule with its numbers.
 std::string describe(const LesionRule& rule);
 
-// The most homogeneous place of the rule that a plan reaches. The same for the same scene. Refused:
-// `no_lesion_site`, with what was found against what the rule asks for.
+// The most homogeneous place of the rule that a plan reaches, within an organ where one is named. The same for the
+// same scene. Refused: `no_lesion_site`, with what was found against what the rule asks for.
 base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const cases::MeshIndex& skin,
                                           const LesionRule& rule = {});
 

@@ -47,7 +47,7 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   tell(1.0);
   plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl, row->subject};
   if (scene->breathing) plan->ct_level = scene->breathing->ct_level;
-  return Task{*row, *found, std::move(*scene), *plan};
+  return Task{*row, *found, std::move(*scene), *plan, {}};
 }
 
 std::vector<std::string> probes_to_choose(const Task& task) {

@@ -14,6 +14,7 @@
 #include "session/case/program.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
+#include "sim/volume/organs/find_organs.h"
 
 namespace seldinger::session {
 
@@ -22,6 +23,7 @@ struct Task {
   casedb::LesionRow lesion;
   cases::Case scene;
   assessment::PuncturePlan plan;
+  std::optional<volume::OrganFound> organ{};  // that the target lies in, where somebody asked (target_organ.h)
 };
 
 // An empty lesion id takes the case's first lesion; a kind other than the case's keeps the needle's measures; the

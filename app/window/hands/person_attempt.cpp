@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "session/case/target_organ.h"
 #include "session/guidance/guidance.h"
 #include "sim/base/check.h"
 #include "sim/base/failure.h"
@@ -262,6 +263,7 @@ void PersonAttempt::run() {
       auto task = session::prepare_task(*library, wanted_.case_id, "", std::nullopt, wanted_.modality,
                                         [this](double share) { prepared_ = share; });
       if (!task) return refuse(task.error());
+      task->organ = session::organ_of_target(*library, task->row, task->lesion.lesion.center_lps_mm);
       task_ = std::make_shared<session::Task>(std::move(*task));
     }
     phase_.store(Phase::ready, std::memory_order_release);

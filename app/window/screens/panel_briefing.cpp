@@ -16,6 +16,7 @@
 #include "reports/words/metric_words.h"
 #include "session/case/planned_way.h"
 #include "sim/imaging/ultrasound/view/probe.h"
+#include "sim/volume/organs/find_organs.h"
 
 namespace seldinger::app {
 namespace {
@@ -89,12 +90,20 @@ std::string unit_of(const std::string& metric_id) {
   return info != nullptr ? info->unit : "";
 }
 
+// "left kidney, as far as the CT tells (93 % sure)".
+std::string organ_words(const volume::OrganFound& organ) {
+  std::string name(base::name_of(volume::kFoundOrganNames, organ.organ));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name + ", as far as the CT tells (" + reports::number_text(100.0 * organ.confidence, 0) + " % sure)";
+}
+
 // Where the target lies, and the way that was planned to it.
 void draw_plan(const session::Task& task) {
   const cases::Lesion& target = task.lesion.lesion;
   const double depth_mm = -task.scene.skin_index.closest(target.center_lps_mm).distance_mm;
   fact("Target", reports::number_text(2.0 * target.radius_mm, 0) + " mm across, its middle " +
                      reports::number_text(depth_mm, 0) + " mm below the nearest skin");
+  if (task.organ) fact("Organ", organ_words(*task.organ));
   const auto way = session::planned_way(task.scene);
   if (!way) return;
   fact("Proposed path", way_words(*way));

@@ -70,17 +70,22 @@ OrganGrid organ_grid(const Volume& volume, const std::vector<TissueClass>& class
   made.volume = empty_grid(volume);
   const glm::ivec3 n = made.volume.size_voxels;
   const std::size_t voxels = made.volume.hu.size();
-  made.soft.assign(voxels, 0), made.bone.assign(voxels, 0), made.body.assign(voxels, 0);
+  made.soft.assign(voxels, 0), made.bone.assign(voxels, 0), made.lung.assign(voxels, 0),
+      made.body.assign(voxels, 0);
   made.level_hu.assign(voxels, 0.0F);
   const glm::dmat4 from_grid = voxel_from_lps(volume) * made.volume.lps_from_voxel;
+  std::array<glm::dvec3, 27> parts;
+  for (int part = 0; part < 27; ++part)
+    parts[static_cast<std::size_t>(part)] =
+        glm::dmat3(from_grid) * (glm::dvec3(part % 3 - 1, part / 3 % 3 - 1, part / 9 - 1) / 3.0);
   for (int k = 0; k < n.z; ++k)
     for (int j = 0; j < n.y; ++j)
       for (int i = 0; i < n.x; ++i) {
         double sum = 0.0;
-        int inside = 0, soft = 0, bone = 0, body = 0;
-        for (int part = 0; part < 27; ++part) {
-          const glm::dvec3 off = glm::dvec3(part % 3 - 1, part / 3 % 3 - 1, part / 9 - 1) / 3.0;
-          const glm::ivec3 at(glm::floor(glm::dvec3(from_grid * glm::dvec4(glm::dvec3(i, j, k) + off, 1.0)) + 0.5));
+        int inside = 0, soft = 0, bone = 0, lung = 0, body = 0;
+        const glm::dvec3 middle = glm::dvec3(from_grid * glm::dvec4(i, j, k, 1.0)) + 0.5;
+        for (const glm::dvec3& part : parts) {
+          const glm::ivec3 at(glm::floor(middle + part));
           if (at.x < 0 || at.y < 0 || at.z < 0 || at.x >= volume.size_voxels.x || at.y >= volume.size_voxels.y ||
               at.z >= volume.size_voxels.z)
             continue;
@@ -93,6 +98,7 @@ OrganGrid organ_grid(const Volume& volume, const std::vector<TissueClass>& class
                       ? 1
                       : 0;
           bone += tissue == TissueClass::bone ? 1 : 0;
+          lung += tissue == TissueClass::lung ? 1 : 0;
           body += tissue != TissueClass::air ? 1 : 0;
         }
         if (inside == 0) continue;
@@ -100,6 +106,7 @@ OrganGrid organ_grid(const Volume& volume, const std::vector<TissueClass>& class
         made.volume.hu[at] = static_cast<std::int16_t>(std::lround(sum / inside));
         made.soft[at] = soft * 2 > inside ? 1 : 0;
         made.bone[at] = bone * 2 > inside ? 1 : 0;
+        made.lung[at] = lung * 2 > inside ? 1 : 0;
         made.body[at] = body * 2 > inside ? 1 : 0;
       }
   made.noise_sd_hu = noise_of(made);

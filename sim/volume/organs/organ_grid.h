@@ -14,6 +14,7 @@ struct OrganGrid {
   Volume volume;                   // averages
   std::vector<std::uint8_t> soft;  // 1: soft tissue or vessel
   std::vector<std::uint8_t> bone;
+  std::vector<std::uint8_t> lung;
   std::vector<std::uint8_t> body;
   std::vector<float> level_hu;  // of soft voxels: the mean of those neighbours that are alike, edges kept
   double noise_sd_hu = 0.0;     // of volume

@@ -204,6 +204,42 @@ TEST(FindLesionSite, KeepsItsRule) {
   EXPECT_NEAR(site->sd_hu, 0.0, 1e-6) << "wholly inside one tissue";
 }
 
+// Two even balls, the right one evener: what is named an organ comes first, and beside both lungs there is no
+// place.
+TEST(FindLesionSite, LiesInAnOrganThatIsNamed) {
+  const auto volume =
+      ball({{volume::Sphere{{-40, -20, 0}, 24.0}, 60.0, ""}, {volume::Sphere{{40, -20, 0}, 24.0}, 110.0, ""}});
+  volume::Organs organs;
+  organs.grid = volume::make_volume({70, 70, 70}, glm::dvec3(3.0), glm::dmat3(1.0), glm::dvec3(-104.0));
+  organs.found = {{volume::FoundOrgan::liver, 0.9, 58.0, 60}};
+  const auto name = [&](const glm::dvec3& center_mm, double radius_mm, volume::FoundOrgan organ) {
+    organs.at.resize(organs.grid.hu.size(), volume::FoundOrgan::none);
+    for (int k = 0; k < 70; ++k)
+      for (int j = 0; j < 70; ++j)
+        for (int i = 0; i < 70; ++i)
+          if (glm::length(glm::dvec3(i, j, k) * 3.0 - 104.0 - center_mm) <= radius_mm)
+            organs.at[organs.grid.index(i, j, k)] = organ;
+  };
+  const auto x_mm = [&](const volume::Organs& named) {
+    LesionRule rule;
+    rule.organs = &named;
+    const auto site = find_lesion_site(volume, skin(), rule);
+    return site ? site->lesion.center_lps_mm.x : 0.0;
+  };
+  for (const double side : {-1.0, 1.0}) {
+    organs.at.clear();
+    name({side * 40, -20, 0}, 24.0, volume::FoundOrgan::liver);
+    EXPECT_NEAR(x_mm(organs), side * 40.0, 10.0) << "in the liver";
+  }
+  // Lungs of every height between the balls.
+  organs.at.assign(organs.grid.hu.size(), volume::FoundOrgan::none);
+  for (int k = 0; k < 70; ++k) {
+    organs.at[organs.grid.index(33, 35, k)] = volume::FoundOrgan::right_lung;
+    organs.at[organs.grid.index(36, 35, k)] = volume::FoundOrgan::left_lung;
+  }
+  EXPECT_LT(std::abs(x_mm(organs)), 10.0);
+}
+
 TEST(FindLesionSite, AVolumeOfAirHasNone) {
   volume::AnalyticVolume air;
   air.size_voxels = {40, 40, 40};

@@ -21,37 +21,74 @@ constexpr std::size_t kFoundOrgans = kFoundOrganNames.size();
 FoundOrgan organ_of(const std::string& label, double x_lps_mm) {
   if (label == "liver") return FoundOrgan::liver;
   if (label == "spleen") return FoundOrgan::spleen;
+  if (label == "bladder") return FoundOrgan::bladder;
+  if (label == "aorta") return FoundOrgan::aorta;
+  if (label == "vena_cava") return FoundOrgan::vena_cava;
+  if (label == "spine" || label == "sacrum") return FoundOrgan::vertebrae;
+  if (label == "rib") return FoundOrgan::ribs;
+  if (label == "lung") return x_lps_mm < 0.0 ? FoundOrgan::right_lung : FoundOrgan::left_lung;
   if (label == "kidney") return x_lps_mm < 0.0 ? FoundOrgan::right_kidney : FoundOrgan::left_kidney;
   return FoundOrgan::none;
 }
 
-std::array<double, kFoundOrgans> dice_of(const Organs& organs, const Volume& volume, const LabelMap& labels) {
-  std::array<double, kFoundOrgans> both{}, all{}, dice{};
+struct Agreement {
+  std::array<double, kFoundOrgans> dice{};
+  std::array<double, kFoundOrgans> right{};  // of what is named so, the share that is it, or beside it
+};
+
+std::vector<FoundOrgan> truth_of(const Organs& organs, const Volume& volume, const LabelMap& labels) {
   const glm::dmat4 volume_from_grid = voxel_from_lps(volume) * organs.grid.lps_from_voxel;
   const glm::ivec3 n = organs.grid.size_voxels;
+  std::vector<FoundOrgan> made;
   for (int k = 0; k < n.z; ++k)
     for (int j = 0; j < n.y; ++j)
       for (int i = 0; i < n.x; ++i) {
         const glm::dvec4 at(i, j, k, 1.0);
         const glm::ivec3 from = glm::clamp(glm::ivec3(glm::round(glm::dvec3(volume_from_grid * at))), glm::ivec3(0),
                                            volume.size_voxels - 1);
-        const double x_mm = (organs.grid.lps_from_voxel * at).x;
-        const auto truth = static_cast<std::size_t>(
-            organ_of(labels.names[labels.label[volume.index(from.x, from.y, from.z)]], x_mm));
-        const auto found = static_cast<std::size_t>(organs.at[organs.grid.index(i, j, k)]);
-        all[truth] += 1.0;
-        all[found] += 1.0;
-        if (truth == found) both[truth] += 1.0;
+        made.push_back(organ_of(labels.names[labels.label[volume.index(from.x, from.y, from.z)]],
+                                (organs.grid.lps_from_voxel * at).x));
       }
-  for (std::size_t organ = 0; organ < dice.size(); ++organ) dice[organ] = 2.0 * both[organ] / all[organ];
-  return dice;
+  return made;
 }
 
-void tell(const std::string& of, const Organs& organs, const std::array<double, kFoundOrgans>& dice) {
+Agreement agreement(const Organs& organs, const Volume& volume, const LabelMap& labels) {
+  const std::vector<FoundOrgan> truth = truth_of(organs, volume, labels);
+  const glm::ivec3 n = organs.grid.size_voxels;
+  const auto beside = [&](const glm::ivec3& p, FoundOrgan organ) {
+    const glm::ivec3 low = glm::max(p - 1, glm::ivec3(0)), high = glm::min(p + 1, n - 1);
+    for (int k = low.z; k <= high.z; ++k)
+      for (int j = low.y; j <= high.y; ++j)
+        for (int i = low.x; i <= high.x; ++i)
+          if (truth[organs.grid.index(i, j, k)] == organ) return true;
+    return false;
+  };
+  std::array<double, kFoundOrgans> both{}, all{}, named{}, right{};
+  for (int k = 0; k < n.z; ++k)
+    for (int j = 0; j < n.y; ++j)
+      for (int i = 0; i < n.x; ++i) {
+        const std::size_t at = organs.grid.index(i, j, k);
+        const auto is = static_cast<std::size_t>(truth[at]), found = static_cast<std::size_t>(organs.at[at]);
+        all[is] += 1.0;
+        all[found] += 1.0;
+        named[found] += 1.0;
+        both[is] += is == found ? 1.0 : 0.0;
+        right[found] += found != 0 && beside({i, j, k}, organs.at[at]) ? 1.0 : 0.0;
+      }
+  Agreement made;
+  for (std::size_t organ = 0; organ < all.size(); ++organ) {
+    made.dice[organ] = 2.0 * both[organ] / all[organ];
+    made.right[organ] = right[organ] / named[organ];
+  }
+  return made;
+}
+
+void tell(const std::string& of, const Organs& organs, const Agreement& with) {
   for (const OrganFound& one : organs.found)
-    std::printf("%-18s %-13s %5.0f ml, %3d HU, confidence %.2f, Dice %.3f\n", of.c_str(),
+    std::printf("%-18s %-13s %5.0f ml, %3d HU, confidence %.2f, Dice %.3f, right %.3f\n", of.c_str(),
                 std::string(base::name_of(kFoundOrganNames, one.organ)).c_str(), one.ml, one.level_hu,
-                one.confidence, dice[static_cast<std::size_t>(one.organ)]);
+                one.confidence, with.dice[static_cast<std::size_t>(one.organ)],
+                with.right[static_cast<std::size_t>(one.organ)]);
 }
 
 std::array<bool, kFoundOrgans> named(const Organs& organs) {
@@ -61,43 +98,77 @@ std::array<bool, kFoundOrgans> named(const Organs& organs) {
   return made;
 }
 
+// Of ribs and vena cava parts are named, in a neck few: what lies beside a vertebra or far from lung, or is joined
+// to more of its level, is not.
+double least_dice(FoundOrgan organ) {
+  switch (organ) {
+    case FoundOrgan::aorta:
+      return 0.86;
+    case FoundOrgan::vertebrae:  // of a sacrum the middle
+      return 0.65;
+    case FoundOrgan::ribs:
+    case FoundOrgan::vena_cava:
+      return 0.0;
+    default:
+      return 0.9;
+  }
+}
+
+void expect_right(const std::string& of, const Organs& organs, const Agreement& with) {
+  for (std::size_t organ = 1; organ < kFoundOrgans; ++organ) {
+    if (!named(organs)[organ]) continue;
+    EXPECT_GE(with.dice[organ], least_dice(FoundOrgan(organ)))
+        << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
+    EXPECT_GE(with.right[organ], 0.975) << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
+  }
+}
+
 TEST(Organs, OfTheTorsoAreThoseOfItsLabels) {
   for (const TorsoPhase phase : {TorsoPhase::portal, TorsoPhase::excretory})
     for (const int spacing_mm : {2, 3}) {
       const EnhancedTorso torso = enhanced_torso({.phase = phase, .spacing_mm = glm::ivec3(spacing_mm)});
       const Organs organs = find_organs(torso.volume, tissue_classes(torso.volume));
-      const auto dice = dice_of(organs, torso.volume, torso.truth);
+      const Agreement with = agreement(organs, torso.volume, torso.truth);
       const std::string of = name_of(phase) + ", " + std::to_string(spacing_mm) + " mm";
-      tell(of, organs, dice);
+      tell(of, organs, with);
       for (std::size_t organ = 1; organ < kFoundOrgans; ++organ) {
+        if (FoundOrgan(organ) == FoundOrgan::bladder) continue;  // below what the torso shows
         EXPECT_TRUE(named(organs)[organ]) << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
-        EXPECT_GE(dice[organ], 0.9) << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
       }
+      expect_right(of, organs, with);
+      for (const FoundOrgan organ : {FoundOrgan::ribs, FoundOrgan::vena_cava})
+        EXPECT_GE(with.dice[static_cast<std::size_t>(organ)], 0.55) << of;
+      EXPECT_GE(with.dice[static_cast<std::size_t>(FoundOrgan::vertebrae)], 0.9) << of;
     }
 }
 
 // What is named is what it is called; what cannot be told, as without contrast, is not named.
 TEST(Organs, AreNamedRightlyOrNotAtAll) {
-  const auto expect_right = [](const std::string& of, const Volume& volume, const LabelMap& truth) {
+  const auto expect_right_of = [](const std::string& of, const Volume& volume, const LabelMap& truth) {
     const Organs organs = find_organs(volume, tissue_classes(volume));
-    const auto dice = dice_of(organs, volume, truth);
-    tell(of, organs, dice);
-    for (std::size_t organ = 1; organ < kFoundOrgans; ++organ)
-      if (named(organs)[organ]) {
-        EXPECT_GE(dice[organ], 0.9) << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
-      }
+    const Agreement with = agreement(organs, volume, truth);
+    tell(of, organs, with);
+    expect_right(of, organs, with);
   };
   for (const TorsoPhase phase : {TorsoPhase::none, TorsoPhase::arterial}) {
     const EnhancedTorso torso = enhanced_torso({.phase = phase, .spacing_mm = glm::ivec3(3)});
-    expect_right(name_of(phase), torso.volume, torso.truth);
+    expect_right_of(name_of(phase), torso.volume, torso.truth);
   }
   for (const auto& [body, name] : kBodyNames) {
     const Phantom made = make_phantom({.spacing_mm = glm::dvec3(3.0), .body = body});
-    expect_right(std::string(name), made.volume, made.labels);
+    expect_right_of(std::string(name), made.volume, made.labels);
   }
   for (const Region region : {Region::groin, Region::neck}) {
     const Phantom made = make_phantom({.spacing_mm = glm::dvec3(3.0), .region = region});
-    expect_right(std::string(base::name_of(kRegionNames, region)), made.volume, made.labels);
+    expect_right_of(std::string(base::name_of(kRegionNames, region)), made.volume, made.labels);
+  }
+}
+
+TEST(Organs, TheBladderIsTheGroinsAndNoOthers) {
+  for (const Region region : {Region::groin, Region::torso}) {
+    const Phantom made = make_phantom({.spacing_mm = glm::dvec3(3.0), .region = region});
+    const Organs organs = find_organs(made.volume, tissue_classes(made.volume));
+    EXPECT_EQ(named(organs)[static_cast<std::size_t>(FoundOrgan::bladder)], region == Region::groin);
   }
 }
 
