@@ -150,8 +150,16 @@ void DeskHands::feel(const engine::Tick& tick, const engine::TickState& now, dou
   if (!desk_) return;
   if (!forces_) return desk_->send({}, elapsed_s);
   haptics::HandInputs felt = held_;
-  for (haptics::HandInput& hand : felt) tick.bring_to_rest(now, hand);
+  for (haptics::HandInput& hand : felt) {
+    tick.bring_to_rest(now, hand);
+    hand.nicks_lps_mm = engine::nicks_of(now.patient);
+  }
   desk_->send(forces_->advance(felt, elapsed_s, felt_), elapsed_s);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const bool less = felt_[side].limiter.held_back_n > kFeltLessN;
+    limit_s_[side] = less ? kSaidLimitS : std::max(0.0, limit_s_[side] - elapsed_s);
+    arms_.at_limit[side] = limit_s_[side] > 0.0;
+  }
 }
 
 void DeskHands::let_go() noexcept {
