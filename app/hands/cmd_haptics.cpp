@@ -55,15 +55,10 @@ double positive(const Arguments& arguments, const char* option, double most) {
   return value;
 }
 
-// What the option of that name says; without it `otherwise`.
+// The option takes the names of the table and no others.
 template <typename Value, std::size_t n>
-Value named(const Arguments& arguments, const char* option, const base::Names<Value, n>& names, Value otherwise) {
-  if (!arguments.has(option)) return otherwise;
-  const std::string said = arguments.text(option);
-  if (const auto value = base::from_name(names, said)) return *value;
-  std::string known;
-  for (const auto& one : names) known += (known.empty() ? "" : ", ") + std::string(one.name);
-  throw UsageError(std::string(option) + " is one of " + known + ", not " + shown(said));
+Value named(const Arguments& arguments, const char* option, const base::Names<Value, n>& names) {
+  return base::from_name(names, arguments.text(option)).value_or(names.front().value);
 }
 
 cases::Gauge gauge_in(const Arguments& arguments) {
@@ -73,8 +68,8 @@ cases::Gauge gauge_in(const Arguments& arguments) {
 int run_haptics_insert(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
   const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue")).needle;
-  const cases::Touch touch{named(arguments, "--tip", cases::kNeedleTipNames, cases::NeedleTip::bevel),
-                           named(arguments, "--touch", cases::kTouchLawNames, cases::TouchLaw::steady)};
+  const cases::Touch touch{named(arguments, "--tip", cases::kNeedleTipNames),
+                           named(arguments, "--touch", cases::kTouchLawNames)};
   haptics::Insertion insertion{haptics::felt_by(row, gauge_in(arguments), touch),
                                positive(arguments, "--speed-mm-s", kMostSpeedMmS),
                                positive(arguments, "--depth-mm", kMostDepthMm), arguments.number("--hold-s", 0.0),
@@ -109,13 +104,13 @@ int run_haptics_needles(const Arguments& arguments) {
     const haptics::NeedleTissue felt = haptics::felt_by(tissue.needle, gauge, {tip.tip, cases::kNewestTouchLaw});
     const auto samples = haptics::insert({felt, speed_mm_s, kDrawnDepthMm}, settings);
     reports::ForceCurve curve{std::string(base::name_of(cases::kNeedleTipNames, tip.tip)), {}};
-    double peak_n = 0.0;
+    double opened_n = 0.0;
     const std::size_t each = 1 + samples.size() / kDrawnPoints;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      peak_n = std::max(peak_n, samples[i].force.axial_n);
+      if (samples[i].force.ruptured && opened_n == 0.0) opened_n = samples[i - 1].force.axial_n;
       if (i % each == 0) curve.points.push_back({samples[i].depth_mm, samples[i].force.axial_n});
     }
-    std::printf("%-8s opens at %.2f N, %.2f N at %.0f mm: %s\n", curve.name.c_str(), peak_n,
+    std::printf("%-8s opens at %.2f N, %.2f N at %.0f mm: %s\n", curve.name.c_str(), opened_n,
                 samples.back().force.axial_n, kDrawnDepthMm, tip.provenance);
     chart.curves.push_back(std::move(curve));
   }

@@ -57,11 +57,11 @@ constexpr std::array<NeedleTissueRow, volume::kTissueClasses> kTissues{{
 // design.
 constexpr std::array<NeedleTipRow, cases::kNeedleTipNames.size()> kTips{{
     {cases::NeedleTip::bevel, 1.0, 1.0, 1.0, "the tissues' own rows: a Chiba"},
-    {cases::NeedleTip::diamond, 1.15, 1.10, 1.0,
+    {cases::NeedleTip::diamond, 1.15, 1.05, 1.0,
      "(design): above a bevel of the same diameter (Jiang, J Biomech 2014, order recalled)"},
-    {cases::NeedleTip::trocar, 1.35, 1.30, 1.0,
+    {cases::NeedleTip::trocar, 1.35, 1.15, 1.0,
      "(design): three facets with a wider angle than a diamond's, so nearer to Jiang's cone"},
-    {cases::NeedleTip::core, 1.20, 0.90, 1.15,
+    {cases::NeedleTip::core, 1.10, 0.90, 1.15,
      "(design): the stylet, thinner than its cannula, opens; the cannula's edge follows and the notch drags"},
 }};
 // Of what a needle takes but friction: tearing 61 %, spreading 18 % (Barnett, Lee and Moore, J Manuf Sci Eng 2015,
@@ -124,7 +124,7 @@ NeedleTissue felt_by(const NeedleTissue& tissue, const cases::Gauge& gauge, cons
   NeedleTissue felt = tissue;
   felt.slope_n_mm *= tip.friction * wide;
   felt.intercept_n *= tip.cutting * blade;
-  felt.rupture_n *= tip.rupture * blade;
+  felt.rupture_n *= tip.rupture * wide;
   felt.tip_stiffness_n_mm *= wide;
   return felt;
 }

@@ -56,8 +56,8 @@ std::span<const NeedleTipRow, cases::kNeedleTipNames.size()> needle_tips() noexc
 // reports strong growth from 0.7 to 3.2 mm, and friction acts on the circumference).
 NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge);
 // The row for another needle, as the case's law of touch says: that of before by gauge alone; the newest by its
-// parts. What is torn grows with the blade, so with the diameter, what is spread with its square, and friction with
-// the circumference; each as the tip's row says.
+// parts. What is torn grows with the blade, so with the diameter, what is spread with its square; a capsule opens
+// by being torn alone; friction grows with the circumference. Each as the tip's row says.
 NeedleTissue felt_by(const NeedleTissue& tissue, const cases::Gauge& gauge, const cases::Touch& touch);
 // The other way round: what was measured with that gauge, as a row of the table.
 NeedleTissue at_table_gauge(const NeedleTissue& measured, const cases::Gauge& gauge);
