@@ -201,10 +201,12 @@ void AttemptPanel::tell_conditions(PersonAttempt& attempt, ConditionWatch::Frame
 
 void AttemptPanel::draw_arms() {
   const ArmsSaid said = arms_words(seen_.arms);
+  ImGui::PushTextWrapPos(0.0F);
   if (said.warns)
     ImGui::TextColored({1.0F, 0.62F, 0.35F, 1.0F}, "%s", said.words.c_str());
   else
     ImGui::TextDisabled("%s", said.words.c_str());
+  ImGui::PopTextWrapPos();
   note_item(said.words.c_str());
 }
 
