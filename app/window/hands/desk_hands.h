@@ -23,6 +23,10 @@ inline constexpr double kSaidLostS = 0.1, kForgivenTimes = 3.0;
 // some 7 % of 1.5 N (Jones 1989, recalled).
 inline constexpr double kSaidLimitS = 1.0, kFeltLessN = 0.1;
 
+// Whether a limit is said in this tick, after which left_s says how much longer; `held_back_n` of what was asked
+// for.
+bool limit_is_said(double held_back_n, double elapsed_s, double& left_s) noexcept;
+
 // By haptics::Side.
 struct ArmsHeld {
   bool used = false;                     // else there are none
