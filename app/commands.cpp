@@ -127,6 +127,7 @@ namespace seldinger::app {
   ROW(consent_withdraw)         \
   ROW(stats)                    \
   ROW(haptics_insert)           \
+  ROW(haptics_needles)          \
   ROW(haptics_fit)              \
   ROW(haptics_calibrate)        \
   ROW(haptics_stability)        \

@@ -152,6 +152,7 @@ constexpr std::string_view kLines[] = {
     "stats welch --csv scores.csv --value score --group experience",
     "stats paired --csv scores.csv --value before,after --json",
     "haptics insert --tissue kidney --speed-mm-s 5 --depth-mm 30 --out kidney.csv",
+    "haptics needles --tissue kidney --gauge 18 --out needles.html",
     "haptics fit kidney.csv --tissue kidney",
     "haptics calibrate points.csv --device left --station station.json",
     "haptics selftest --seconds 2",

@@ -715,7 +715,10 @@ CREATE TABLE training_case (
   CHECK (sight_law IN ('half_slice', 'echo', 'scatter')), breath_law TEXT NOT NULL DEFAULT 'equal_holds'
   CHECK (breath_law IN ('equal_holds', 'drifting_holds')), ct_breath TEXT NOT NULL DEFAULT 'expiration'
   CHECK (ct_breath IN ('expiration', 'inspiration')), breath_depth REAL NOT NULL DEFAULT 0.0
-  CHECK (breath_depth BETWEEN 0 AND 3), probe_is_chosen INTEGER NOT NULL DEFAULT 0 CHECK (probe_is_chosen IN (0, 1))) STRICT;
+  CHECK (breath_depth BETWEEN 0 AND 3), probe_is_chosen INTEGER NOT NULL DEFAULT 0 CHECK (probe_is_chosen IN (0, 1)), 
+  CHECK (breath_depth BETWEEN 0 AND 3), instrument_tip TEXT NOT NULL DEFAULT 'bevel'
+  CHECK (instrument_tip IN ('bevel', 'diamond', 'trocar', 'core')), touch_law TEXT NOT NULL DEFAULT 'steady'
+  CHECK (touch_law IN ('steady', 'by_speed'))) STRICT;
 
 CREATE TABLE trusted_key (
   public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),
@@ -1423,6 +1426,14 @@ BEGIN
 END;
 
 CREATE TRIGGER training_case_keeps_its_subject BEFORE UPDATE OF subject ON training_case
+WHEN OLD.state <> 'draft' OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
+  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
+END;
+
+CREATE TRIGGER training_case_keeps_its_touch
+BEFORE UPDATE OF instrument_tip, touch_law ON training_case
 WHEN OLD.state <> 'draft' OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
   OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
 BEGIN

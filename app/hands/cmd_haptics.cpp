@@ -1,5 +1,6 @@
-// haptics insert: force against depth of a needle in one tissue, without hardware. haptics fit: the way back, from
-// a measured curve to a tissue's row. haptics selftest: does the servo keep time here?
+// haptics insert: force against depth of a needle in one tissue, without hardware. haptics needles: the same of
+// every form of tip, drawn. haptics fit: the way back, from a measured curve to a tissue's row. haptics selftest:
+// does the servo keep time here?
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "app/hands/fit_answer.h"
 #include "app/hands/servo_answer.h"
 #include "app/hands/servo_trial.h"
+#include "reports/charts/force_page.h"
 #include "sim/engine/servo_loop.h"
 #include "sim/haptics/needle/insertion.h"
 #include "sim/volume/classes.h"
@@ -53,16 +55,28 @@ double positive(const Arguments& arguments, const char* option, double most) {
   return value;
 }
 
+// The option takes the names of the table and no others.
+template <typename Value, std::size_t n>
+Value named(const Arguments& arguments, const char* option, const base::Names<Value, n>& names) {
+  return base::from_name(names, arguments.text(option)).value_or(names.front().value);
+}
+
+cases::Gauge gauge_in(const Arguments& arguments) {
+  return *cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
+}
+
 int run_haptics_insert(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
   const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue")).needle;
-  const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
-  haptics::Insertion insertion{haptics::at_gauge(row, *gauge), positive(arguments, "--speed-mm-s", kMostSpeedMmS),
+  const cases::Touch touch{named(arguments, "--tip", cases::kNeedleTipNames),
+                           named(arguments, "--touch", cases::kTouchLawNames)};
+  haptics::Insertion insertion{haptics::felt_by(row, gauge_in(arguments), touch),
+                               positive(arguments, "--speed-mm-s", kMostSpeedMmS),
                                positive(arguments, "--depth-mm", kMostDepthMm), arguments.number("--hold-s", 0.0),
                                arguments.has("--retract")};
   if (!(insertion.hold_s >= 0.0)) throw UsageError("--hold-s must not be below 0");
-  haptics::NeedleSettings settings;
-  settings.relaxation = arguments.has("--relaxation");
+  haptics::NeedleSettings settings = haptics::of_law(haptics::NeedleSettings{}, touch.law);
+  settings.relaxation = settings.relaxation || arguments.has("--relaxation");
   if (!(haptics::insertion_samples(insertion, settings) <= kMostSamples))
     return refuse({"too_long", "the insertion takes more than 5,000,000 samples of 1 ms", {}});
 
@@ -76,10 +90,40 @@ int run_haptics_insert(const Arguments& arguments) {
   return kDone;
 }
 
+int run_haptics_needles(const Arguments& arguments) {
+  const auto& tissue = tissue_named(arguments.required("--tissue"));
+  const std::string out = arguments.required("--out");
+  const double speed_mm_s =
+      arguments.number("--speed-mm-s", haptics::kRowSpeedMmS, haptics::kSlowestMmS, kMostSpeedMmS);
+  const cases::Gauge gauge = gauge_in(arguments);
+  constexpr double kDrawnDepthMm = 60.0;
+  constexpr std::size_t kDrawnPoints = 400;
+  const haptics::NeedleSettings settings = haptics::of_law(haptics::NeedleSettings{}, cases::kNewestTouchLaw);
+  reports::ForceChart chart{volume::about(tissue.tissue).name, {}};
+  for (const haptics::NeedleTipRow& tip : haptics::needle_tips()) {
+    const haptics::NeedleTissue felt = haptics::felt_by(tissue.needle, gauge, {tip.tip, cases::kNewestTouchLaw});
+    const auto samples = haptics::insert({felt, speed_mm_s, kDrawnDepthMm}, settings);
+    reports::ForceCurve curve{std::string(base::name_of(cases::kNeedleTipNames, tip.tip)), {}};
+    double opened_n = 0.0;
+    const std::size_t each = 1 + samples.size() / kDrawnPoints;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (samples[i].force.ruptured && opened_n == 0.0) opened_n = samples[i - 1].force.axial_n;
+      if (i % each == 0) curve.points.push_back({samples[i].depth_mm, samples[i].force.axial_n});
+    }
+    std::printf("%-8s opens at %.2f N, %.2f N at %.0f mm: %s\n", curve.name.c_str(), opened_n,
+                samples.back().force.axial_n, kDrawnDepthMm, tip.provenance);
+    chart.curves.push_back(std::move(curve));
+  }
+  char title[96];
+  std::snprintf(title, sizeof title, "Force of needles of %d G against depth, %.3g mm/s", gauge.number, speed_mm_s);
+  write_file(out, reports::force_page(title, {std::move(chart)}));
+  return kDone;
+}
+
 int run_haptics_fit(const Arguments& arguments) {
   const std::filesystem::path from = arguments.positional(0);
   const auto& like = tissue_named(arguments.text("--tissue", "soft_tissue"));
-  const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
+  const cases::Gauge gauge = gauge_in(arguments);
   const auto gaussians =
       static_cast<int>(arguments.whole("--gaussians", haptics::kThesisGaussians, 1, haptics::kMostGaussians));
   const auto text = read_text_of(arguments, "FILE.csv");
@@ -94,7 +138,7 @@ int run_haptics_fit(const Arguments& arguments) {
   const auto plateau = haptics::fit_plateau(*curve);
   if (!plateau) return refuse(plateau.error());
   auto by_gaussians = haptics::fit_gaussians(*curve, gaussians);
-  const FitAnswer answer{std::move(*curve),         *plateau, std::move(by_gaussians), like, *gauge,
+  const FitAnswer answer{std::move(*curve),         *plateau, std::move(by_gaussians), like, gauge,
                          arguments.text("--source")};
 
   auto beside = from;
@@ -143,7 +187,17 @@ constexpr Option kInsertOptions[] = {
     {"--retract", nullptr, "then pull back to depth 0"},
     {"--gauge", "G", "16 to 25; default 22"},
     {"--relaxation", nullptr, "held tissue relaxes"},
+    {"--touch", base::kAlternatives<cases::kTouchLawNames>,
+     "the law; default steady: the same at any speed. By speed, capsules open at less the faster, and held tissue "
+     "relaxes"},
+    {"--tip", base::kAlternatives<cases::kNeedleTipNames>, "its form, which counts by speed; default bevel"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
+
+constexpr Option kNeedlesOptions[] = {
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},
+    {"--gauge", "G", "16 to 25; default 22"},
+    {"--speed-mm-s", "V", "of each; default 8.33 (the thesis' 500 mm/min)"},
+    {"--out", "FILE.html", "the chart"}};
 
 constexpr Option kSelftestOptions[] = {
     {"--seconds", "S", "how long; default 10"},
@@ -166,6 +220,14 @@ Command haptics_insert_command() {
           .options = kInsertOptions,
           .summary = "Drives a needle into one tissue and writes its force against depth.",
           .run = &run_haptics_insert};
+}
+
+Command haptics_needles_command() {
+  return {.name = "haptics needles",
+          .options = kNeedlesOptions,
+          .summary =
+              "Draws force against depth of every form of tip in one tissue, and says where its numbers come from.",
+          .run = &run_haptics_needles};
 }
 
 Command haptics_fit_command() {

@@ -49,6 +49,7 @@ struct CaseSetting {
   cases::Subject subject = cases::Subject::patient;
   cases::PatientPosition position = cases::PatientPosition::supine;
   cases::Instrument instrument;
+  cases::Touch touch{.law = cases::kNewestTouchLaw};  // of a version made before it: steady
   cases::Approach approach = cases::Approach::in_plane;
   bool probe_is_chosen = false;  // ultrasound: by whoever attempts it; else the case takes the one that suits
   Clinic clinic;

@@ -60,6 +60,11 @@ inline constexpr auto kPositionWords =
 inline constexpr auto kInstrumentWords =
     base::names<cases::InstrumentKind>({{cases::InstrumentKind::access, "access: the tip decides"},
                                         {cases::InstrumentKind::core, "core: the fired notch"}});
+inline constexpr auto kTipWords =
+    base::names<cases::NeedleTip>({{cases::NeedleTip::bevel, "bevel, as a Chiba's"},
+                                   {cases::NeedleTip::diamond, "diamond point"},
+                                   {cases::NeedleTip::trocar, "trocar point"},
+                                   {cases::NeedleTip::core, "core: stylet in a cannula"}});
 
 // The editor takes a name by the place of its words.
 template <typename Names, typename Words>
@@ -71,7 +76,8 @@ consteval bool in_one_order(const Names& names, const Words& words) {
 static_assert(in_one_order(cases::kModalityNames, kModalityWords) &&
               in_one_order(cases::kApproachNames, kApproachWords) &&
               in_one_order(cases::kPatientPositionNames, kPositionWords) &&
-              in_one_order(cases::kInstrumentKindNames, kInstrumentWords));
+              in_one_order(cases::kInstrumentKindNames, kInstrumentWords) &&
+              in_one_order(cases::kNeedleTipNames, kTipWords));
 
 namespace setting_table {
 
@@ -151,6 +157,12 @@ inline constexpr auto kSettingRows = [] {
                   "access: the tip decides; core: the fired notch"},
        .editor = {.words = "needle", .place = 6, .names = base::kNamesOf<kInstrumentWords>},
        .of_attempts = true},
+      {.column = "instrument_tip",
+       .field = choice<cases::kNeedleTipNames, &CaseSetting::touch, &cases::Touch::tip>(),
+       .json = "instrument/tip",
+       .option = {"--tip", base::kAlternatives<cases::kNeedleTipNames>,
+                  "the form of its tip, which tells what cutting takes; default bevel"},
+       .editor = {.words = "tip", .place = 6, .names = base::kNamesOf<kTipWords>}},
       {.column = nullptr,
        .field = ComposedField{Composed::gauge, {}},
        .json = "instrument/outer_diameter_mm",
@@ -290,6 +302,9 @@ inline constexpr auto kSettingRows = [] {
       {.column = "sight_law",
        .field = choice<cases::kSightLawNames, &CaseSetting::sight_law>(),
        .json = "sight_law"},
+      {.column = "touch_law",
+       .field = choice<cases::kTouchLawNames, &CaseSetting::touch, &cases::Touch::law>(),
+       .json = "touch_law"},
       {.column = nullptr, .field = ComposedField{Composed::pass_rule, kRuleColumns}, .json = "rule"},
   });
 }();

@@ -128,6 +128,7 @@ void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id
       {"state", "'draft'"},
       {"audience", "'everyone'"},
       {"sight_law", "'" + std::string(base::name_of(cases::kSightLawNames, cases::kNewestSightLaw)) + "'"},
+      {"touch_law", "'" + std::string(base::name_of(cases::kTouchLawNames, cases::kNewestTouchLaw)) + "'"},
       {"breath_law", kNewestBreathLaw},
       {"breath_depth", kDepthByNewestBreathLaw},
       {"created_us", ":created_us"}};
@@ -249,7 +250,8 @@ base::Result<void> try_to_judge(Library& library, const std::string& case_id, co
   decide(library, *wanted, approve ? DecisionKind::approved : DecisionKind::returned, note);
   if (!approve) {
     set_state(library, *wanted, CaseState::draft, false);
-    question(library.database(), "take_newest_breath_law").bind("case_id", case_id).run();
+    for (const char* law : {"take_newest_breath_law", "take_newest_touch_law"})
+      question(library.database(), law).bind("case_id", case_id).run();
   }
   transaction.commit();
   return {};

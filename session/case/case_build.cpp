@@ -58,6 +58,7 @@ class Voxels {
 
 void take_setting(const casedb::CaseSetting& setting, cases::Case& scene) {
   scene.instrument = setting.instrument;
+  scene.touch = setting.touch;
   scene.approach = setting.approach;
   scene.probe_is_chosen = setting.probe_is_chosen;
   scene.subject = setting.subject;

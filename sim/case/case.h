@@ -17,6 +17,7 @@
 #include "sim/case/patient_position.h"
 #include "sim/case/structure.h"
 #include "sim/case/subject.h"
+#include "sim/case/touch.h"
 #include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
@@ -102,6 +103,7 @@ struct Case {
   std::vector<Lesion> lesions;  // [0] is the target
   std::vector<Structure> structures;
   Instrument instrument;
+  Touch touch;
   Picture picture;
   SightLaw sight_law = kNewestSightLaw;
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray

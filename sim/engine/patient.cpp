@@ -41,6 +41,10 @@ bool is_numb(const glm::dvec3& place_lps_mm, const std::array<glm::dvec3, kNumbP
 
 }  // namespace
 
+std::span<const glm::dvec3> nicks_of(const PatientState& patient) noexcept {
+  return {patient.nick_lps_mm.data(), std::min<std::size_t>(patient.nicked, kNickPlaces)};
+}
+
 Patient::Patient(const cases::Case& scene) : scene_(scene) {
   if (!scene.classes.empty()) voxel_from_lps_ = volume::voxel_from_lps(scene.volume);
 }
@@ -79,6 +83,10 @@ EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& stat
   if (scene_.subject == cases::Subject::phantom) return EventKind::none;
   const cases::NeedleState& needle = state.needle;
   if (inputs.event == EventKind::anaesthetic && !scene_.skin_index.empty()) numb(inputs, needle, patient);
+  // By the law of touch of before, nobody felt one.
+  if (inputs.event == EventKind::nick && !scene_.skin_index.empty() &&
+      scene_.touch.law == cases::TouchLaw::by_speed)
+    patient.nick_lps_mm[patient.nicked++ % kNickPlaces] = pointed_at(needle);
   if (inputs.event == EventKind::breathe_again) patient.let_go = true;
   const bool held = tissue::holds(state.breath.state);
   if (held && !patient.held) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "sim/case/case.h"
 #include "sim/case/event.h"
@@ -21,6 +22,7 @@ namespace seldinger::engine {
 // is told with a length goes through the needle, and works about its tip, on bone too (decision 0072).
 constexpr double kNumbMm = 15.0;
 inline constexpr std::size_t kNumbPlaces = 4;  // that are remembered, of each
+inline constexpr std::size_t kNickPlaces = 4;  // the same, of nicks
 // Bone felt again so much later hurts again.
 constexpr double kBoneAgainSeconds = 0.5;
 
@@ -30,11 +32,16 @@ struct PatientState {
   std::uint32_t numbed = 0;                           // and how many there were
   std::array<glm::dvec3, kNumbPlaces> deep_lps_mm{};  // the same of those about a tip in tissue
   std::uint32_t deep = 0;
+  std::array<glm::dvec3, kNickPlaces> nick_lps_mm{};  // the latest places of the skin that are cut, at rest,
+  std::uint32_t nicked = 0;                           // and how many there were
   bool was_in_body = false, held = false, let_go = false;
   cases::LumenContent returned = cases::LumenContent::none;  // that was told
   double bone_s = -1e9;
   std::array<cases::EventKind, 4> waiting{};  // reactions not told yet, in their order
 };
+
+// Where the skin is cut.
+std::span<const glm::dvec3> nicks_of(const PatientState& patient) noexcept;
 
 class Patient {
  public:

@@ -66,6 +66,7 @@ std::optional<cases::ForceSample> Tick::feel(double elapsed_s, TickState& now) c
   needle.tool = haptics::Tool::needle;
   needle.pose.position_lps_mm = state.needle.tip_lps_mm;
   needle.pose.axis = state.needle.direction;
+  needle.nicks_lps_mm = nicks_of(now.patient);
   probe.tool = haptics::Tool::probe;
   probe.pose = {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
   bring_to_rest(now, needle);

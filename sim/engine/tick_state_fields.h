@@ -43,7 +43,7 @@ SELDINGER_FIELDS(cases::State, tick, t, needle, probe, fire, breath, fluoroscopy
 SELDINGER_FIELDS(haptics::NeedleTissue, slope, intercept, tip_stiffness, rupture, dent, impenetrable)
 SELDINGER_FIELDS(haptics::NeedleLayer, start, tissue)
 SELDINGER_FIELDS(haptics::NeedlePath, layers, tissues, count)
-SELDINGER_FIELDS(haptics::NeedleTrack, opened, cut, shaft, falling, damper, last_depth, last_elastic, begun)
+SELDINGER_FIELDS(haptics::NeedleTrack, opened, cut, shaft, falling, damper, last_depth, last_elastic, speed, begun)
 SELDINGER_FIELDS(haptics::NeedleSideTrack, elastic, damper, last, stiffness, begun)
 SELDINGER_FIELDS(tissue::NeedleDrag, entry, direction, radius, cut, tip_n, tip_mm, shaft)
 SELDINGER_FIELDS(haptics::HeldNeedleState, skin, entry, direction, path, track, side, depth, looked, ticks_to_look,
@@ -54,10 +54,11 @@ SELDINGER_FIELDS(haptics::HeldProbeState, track, asked, gap, bone, triangle, tic
 SELDINGER_FIELDS(haptics::ProxySpringTrack, elastic, damper)
 SELDINGER_FIELDS(haptics::SurfaceTrack, proxy, spring, triangle, begun, touching, holding)
 SELDINGER_FIELDS(haptics::VolumeProxyTrack, proxy, spring, begun, touching, holding)
-SELDINGER_FIELDS(haptics::ForceLimiterState, out, share, heat, fault_n, fault_s)
+SELDINGER_FIELDS(haptics::ForceLimiterState, out, share, heat, fault_n, fault_s, held_back)
 SELDINGER_FIELDS(haptics::HandState, tool, needle, probe, finger, pointer, limiter, last, delay, interrupted)
 
-SELDINGER_FIELDS(PatientState, numb, numbed, deep_at, deep, was_in_body, held, let_go, returned, bone, waiting)
+SELDINGER_FIELDS(PatientState, numb, numbed, deep_at, deep, nick, nicked, was_in_body, held, let_go, returned, bone,
+                 waiting)
 SELDINGER_FIELDS(devices::VirtualDeviceState, pose, started)
 SELDINGER_FIELDS(VirtualArms, needle, probe)
 SELDINGER_FIELDS(shaders::DisplacementSource, place, along, size, amount)

@@ -36,6 +36,7 @@ ForceLimiter::ForceLimiter(const ForceLimits& limits) : limits_(limits) {
 glm::dvec3 ForceLimiter::advance(const glm::dvec3& wanted_n, double elapsed_s, bool healthy,
                                  ForceLimiterState& state) const noexcept {
   const double passed_s = elapsed_s > limits_.tick_s ? elapsed_s : limits_.tick_s;
+  state.held_back_n = 0.0;
   const bool stalled = !(elapsed_s < kFadeS);
   if (!healthy || stalled || !base::is_finite(wanted_n)) {
     if (!(state.fault_s > 0.0)) state.fault_n = state.out_n;
@@ -49,7 +50,8 @@ glm::dvec3 ForceLimiter::advance(const glm::dvec3& wanted_n, double elapsed_s, b
     const double warm = state.heat_n2 / (limits_.continuous_n * limits_.continuous_n);
     const double cold = std::clamp((1.0 - warm) / (1.0 - kFreePart), 0.0, 1.0);
     const double most_n = limits_.continuous_n + (limits_.peak_n - limits_.continuous_n) * cold;
-    const glm::dvec3 target_n = at_most(state.share * wanted_n, most_n);
+    const glm::dvec3 asked_n = state.share * wanted_n, target_n = at_most(asked_n, most_n);
+    if (target_n != asked_n) state.held_back_n = std::sqrt(glm::dot(asked_n, asked_n)) - most_n;
     state.out_n += at_most(target_n - state.out_n, kMostChangeNS * limits_.tick_s);
   }
   const double part = std::min(1.0, passed_s / kThermalS);

@@ -17,7 +17,8 @@ struct ForceLimiterState {
   double share = 0.0;    // of what is asked for, while it comes in
   double heat_n2 = 0.0;  // mean square of the force over the motors' thermal time
   glm::dvec3 fault_n{0.0};
-  double fault_s = 0.0;  // since the fault began; 0: there is none
+  double fault_s = 0.0;      // since the fault began; 0: there is none
+  double held_back_n = 0.0;  // of what was asked for, as the motors bear no more
 };
 
 class ForceLimiter {

@@ -56,15 +56,15 @@ TwoHands::TwoHands(const cases::Case& scene, const std::array<HandSettings, 2>& 
       needle_(scene),
       probe_(scene, ProbeSettings{}.radius_mm),
       up_(cases::upwards(scene.position)),
-      stations_{station(settings[0]), station(settings[1])} {}
+      stations_{station(settings[0], scene.touch.law), station(settings[1], scene.touch.law)} {}
 
-TwoHands::Station TwoHands::station(const HandSettings& settings) const {
+TwoHands::Station TwoHands::station(const HandSettings& settings, cases::TouchLaw law) const {
   Station made{{},
                ForceLimiter({settings.device.peak_n, settings.device.continuous_n, kTickS}),
                settings.carried_kg * kGravityMS2 * up_};
   ArmModel device = settings.device;
   for (device.delay_ticks = 0; device.delay_ticks <= kMostDelayTicks; ++device.delay_ticks) {
-    const NeedleSettings needle = needle_settings(device);
+    const NeedleSettings needle = of_law(needle_settings(device), law);
     ProbeSettings probe;
     probe.stiffness_n_mm = stiffness_n_mm(device);
     const DamperSettings spring{kTickS, kWallDampingNSMm, probe.stiffness_n_mm};
@@ -101,7 +101,8 @@ HandForce TwoHands::advance(const Station& station, const HandInput& input, doub
     state.delay_ticks = touches ? std::max(state.delay_ticks, input.delay_ticks) : input.delay_ticks;
     const Laws& laws = station.laws[static_cast<std::size_t>(state.delay_ticks)];
     if (state.tool == Tool::needle) {
-      const HeldNeedleForce needle = needle_.advance(pose, laws.needle, laws.side, state.needle);
+      const HeldNeedleForce needle =
+          needle_.advance(pose, laws.needle, laws.side, input.nicks_lps_mm, state.needle);
       force.wanted_n = needle.force_n;
       force.ruptured = needle.along.ruptured;
     } else if (state.tool == Tool::probe) {

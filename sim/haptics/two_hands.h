@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "sim/haptics/arm_model.h"
@@ -36,8 +37,9 @@ struct HandSettings {
 struct HandInput {
   cases::ToolPose pose;
   Tool tool = Tool::none;
-  bool healthy = true;  // the device answers
-  int delay_ticks = 1;  // from encoder to motor as it is now; above kMostDelayTicks: a fault
+  bool healthy = true;                         // the device answers
+  int delay_ticks = 1;                         // from encoder to motor as it is now; above kMostDelayTicks: a fault
+  std::span<const glm::dvec3> nicks_lps_mm{};  // where the skin is cut, at rest
 };
 
 // What must be kept of one hand. A new one: nothing is held.
@@ -90,7 +92,7 @@ class TwoHands {
     ForceLimiter limiter;
     glm::dvec3 bear_n;  // against gravity
   };
-  Station station(const HandSettings& settings) const;
+  Station station(const HandSettings& settings, cases::TouchLaw law) const;
   HandForce advance(const Station& station, const HandInput& input, double elapsed_s,
                     HandState& state) const noexcept;
 

@@ -81,7 +81,9 @@ TEST(HapticsInsert, RefusesWhatIsNoInsertionAndWritesNothing) {
         "--tissue liver --speed-mm-s 0 --depth-mm 5", "--tissue liver --speed-mm-s -1 --depth-mm 5",
         "--tissue liver --speed-mm-s nan --depth-mm 5", "--tissue liver --speed-mm-s 1e9 --depth-mm 5",
         "--tissue liver --speed-mm-s 1 --depth-mm 1e9", "--tissue liver --speed-mm-s 1 --depth-mm 5 --hold-s -1",
-        "--tissue liver --speed-mm-s 1 --depth-mm 5 --gauge 30"}) {
+        "--tissue liver --speed-mm-s 1 --depth-mm 5 --gauge 30",
+        "--tissue liver --speed-mm-s 1 --depth-mm 5 --tip blunt",
+        "--tissue liver --speed-mm-s 1 --depth-mm 5 --touch soft"}) {
     const auto ran = fixtures::run(kProgram + " haptics insert " + words + out, scratch);
     EXPECT_EQ(ran.exit_code, 2) << words;
     EXPECT_EQ(ran.err.rfind("usage: ", 0), 0U) << ran.err;
@@ -98,6 +100,21 @@ TEST(HapticsInsert, RefusesWhatIsNoInsertionAndWritesNothing) {
                           scratch)
                 .exit_code,
             4);
+}
+
+TEST(HapticsNeedles, DrawsEveryTipAndSaysWhereItsNumbersComeFrom) {
+  const auto scratch = fixtures::fresh_folder("haptics_needles");
+  const auto page = scratch / "needles.html";
+  const auto ran =
+      fixtures::run(kProgram + " haptics needles --tissue kidney --out '" + page.string() + "'", scratch);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("bevel    opens at 2.6"), std::string::npos) << ran.out;
+  const std::string drawn = fixtures::whole_file(page);
+  for (const char* tip : {"bevel", "diamond", "trocar", "core"}) {
+    EXPECT_NE(ran.out.find(tip), std::string::npos) << tip;
+    EXPECT_NE(drawn.find(tip), std::string::npos) << tip;
+  }
+  EXPECT_EQ(fixtures::run(kProgram + " haptics needles --tissue kidney", scratch).exit_code, 2);
 }
 
 // To renew it: seldinger haptics stability > docs/stability.md

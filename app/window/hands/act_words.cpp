@@ -110,6 +110,33 @@ std::string guide_words(const Seen& seen, cases::Modality modality) {
   return "Needle guide off: the needle is free.";
 }
 
+ArmsSaid arms_words(const ArmsHeld& arms) {
+  const auto tool = [&](std::size_t side) {
+    return std::string(arms.tools[side] == haptics::Tool::needle ? "needle" : "probe");
+  };
+  const auto which = [](const std::array<bool, 2>& so) { return so[0] && so[1] ? 2 : so[0] ? 0 : so[1] ? 1 : -1; };
+  constexpr const char* kArms[] = {"left arm", "right arm", "both arms"};
+  if (const int lost = which(arms.lost); lost == 2)
+    return {"both arms lost: their tools stay, mouse and keys move them (Tab)", true};
+  else if (lost >= 0)
+    return {std::string(kArms[lost]) + " lost: the " + tool(static_cast<std::size_t>(lost)) +
+                " stays, mouse and keys move it (Tab)",
+            true};
+  if (const int late = which(arms.late); late >= 0)
+    return {std::string(late == 2 ? "" : "the ") + kArms[late] + (late == 2 ? " answer" : " answers") +
+                " too late to push back: no force there",
+            true};
+  if (const int limit = which(arms.at_limit); limit >= 0)
+    return {std::string(kArms[limit]) + (limit == 2 ? " at their" : " at its") + " limit: tissue resists more",
+            true};
+  return {"left arm: " + tool(0) + " · right arm: " + tool(1) + " · F10: live", false};
+}
+
+const char* arm_state(const ArmsHeld& arms, haptics::Side side) {
+  const auto at = static_cast<std::size_t>(side);
+  return arms.lost[at] ? "lost" : arms.late[at] ? "late" : arms.at_limit[at] ? "at_limit" : "ok";
+}
+
 std::string breath_words(const cases::PatientBreath& breath) {
   if (!breath.hold_asked) return {};
   if (breath.state.failed) return "the breath could be held no longer";

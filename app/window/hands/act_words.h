@@ -36,6 +36,14 @@ std::string aspirated_words(const cases::NeedleFlow& flow);
 std::string flow_words(const cases::NeedleFlow& flow);
 // Of what has become of the needle guide since it was asked for: taken up, put aside, or why not.
 std::string guide_words(const Seen& seen, cases::Modality modality);
+// How the arms are: what stands in the way first.
+struct ArmsSaid {
+  std::string words;
+  bool warns = false;
+};
+ArmsSaid arms_words(const ArmsHeld& arms);
+// The same of one of them, for the trace: "lost", "late", "at_limit" or "ok".
+const char* arm_state(const ArmsHeld& arms, haptics::Side side);
 // Of a patient who was asked to hold the breath; empty: none was, or it is over.
 std::string breath_words(const cases::PatientBreath& breath);
 

@@ -35,6 +35,11 @@ std::array<haptics::HandSettings, 2> two_arms() {
 
 }  // namespace
 
+bool limit_is_said(double held_back_n, double elapsed_s, double& left_s) noexcept {
+  left_s = held_back_n > kFeltLessN ? kSaidLimitS : std::max(0.0, left_s - elapsed_s);
+  return left_s > 0.0;
+}
+
 DeskHands::DeskHands(const cases::Case& scene, const devices::HandsStart& start,
                      const devices::HandsSettings& settings, haptics::Handedness handedness, const Arms* arms)
     : scene_(scene), mouse_(scene.skin_index, start, settings), braced_(scene) {
@@ -150,8 +155,13 @@ void DeskHands::feel(const engine::Tick& tick, const engine::TickState& now, dou
   if (!desk_) return;
   if (!forces_) return desk_->send({}, elapsed_s);
   haptics::HandInputs felt = held_;
-  for (haptics::HandInput& hand : felt) tick.bring_to_rest(now, hand);
+  for (haptics::HandInput& hand : felt) {
+    tick.bring_to_rest(now, hand);
+    hand.nicks_lps_mm = engine::nicks_of(now.patient);
+  }
   desk_->send(forces_->advance(felt, elapsed_s, felt_), elapsed_s);
+  for (std::size_t side = 0; side < 2; ++side)
+    arms_.at_limit[side] = limit_is_said(felt_[side].limiter.held_back_n, elapsed_s, limit_s_[side]);
 }
 
 void DeskHands::let_go() noexcept {

@@ -19,11 +19,20 @@ namespace seldinger::app {
 // once. Who answers now and then is silent, too: a moment of answers is worth kForgivenTimes as much silence.
 inline constexpr double kSaidLostS = 0.1, kForgivenTimes = 3.0;
 
+// What is held back comes and goes with each layer; so long it is said (design), and what is less nobody feels:
+// some 7 % of 1.5 N (Jones 1989, recalled).
+inline constexpr double kSaidLimitS = 1.0, kFeltLessN = 0.1;
+
+// Whether a limit is said in this tick, after which left_s says how much longer; `held_back_n` of what was asked
+// for.
+bool limit_is_said(double held_back_n, double elapsed_s, double& left_s) noexcept;
+
 // By haptics::Side.
 struct ArmsHeld {
   bool used = false;                     // else there are none
   std::array<bool, 2> lost{true, true};  // nothing was heard for kSaidLostS, or ever
   std::array<bool, 2> late{};            // it is followed, but answers too late to give force
+  std::array<bool, 2> at_limit{};        // within kSaidLimitS, tissue resisted with more than its motors give
   std::array<haptics::Tool, 2> tools{haptics::Tool::none, haptics::Tool::none};
 };
 
@@ -72,7 +81,7 @@ class DeskHands {
   BracedHand braced_;
   cases::Inputs last_;
   ArmsHeld arms_;
-  std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS}, late_s_{};
+  std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS}, late_s_{}, limit_s_{};
   std::array<bool, 2> arm_led_{};  // last, and so the mouse's own pose of it is old
   haptics::HandInputs held_;
   haptics::HandStates felt_;

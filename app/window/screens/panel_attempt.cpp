@@ -156,8 +156,8 @@ void AttemptPanel::tell(TraceLine& line) {
   line.needle_lps_mm = seen_.moment.state.needle.tip_lps_mm;
   line.probe_lps_mm = seen_.moment.state.probe.origin_lps_mm;
   if (seen_.arms.used)
-    for (std::size_t side = 0; side < 2; ++side)
-      line.arms.emplace_back(seen_.arms.lost[side] ? "lost" : seen_.arms.late[side] ? "late" : "ok");
+    for (const haptics::Side side : {haptics::Side::left, haptics::Side::right})
+      line.arms.emplace_back(arm_state(seen_.arms, side));
 }
 
 void AttemptPanel::shown(Trainer& trainer, int width_px, int height_px) {
@@ -200,23 +200,14 @@ void AttemptPanel::tell_conditions(PersonAttempt& attempt, ConditionWatch::Frame
 }
 
 void AttemptPanel::draw_arms() {
-  const ImVec4 warning{1.0F, 0.62F, 0.35F, 1.0F};
-  const ArmsHeld& arms = seen_.arms;
-  const auto tool = [&](std::size_t side) {
-    return arms.tools[side] == haptics::Tool::needle ? "needle" : "probe";
-  };
-  if (arms.lost[0] && arms.lost[1])
-    ImGui::TextColored(warning, "both arms lost: their tools stay, mouse and keys move them (Tab)");
-  else if (arms.lost[0] || arms.lost[1])
-    ImGui::TextColored(warning, "%s arm lost: the %s stays, mouse and keys move it (Tab)",
-                       arms.lost[0] ? "left" : "right", tool(arms.lost[0] ? 0 : 1));
-  else if (arms.late[0] || arms.late[1])
-    ImGui::TextColored(warning, "%s too late to push back: no force there",
-                       arms.late[0] && arms.late[1] ? "both arms answer"
-                       : arms.late[0]               ? "the left arm answers"
-                                                    : "the right arm answers");
+  const ArmsSaid said = arms_words(seen_.arms);
+  ImGui::PushTextWrapPos(0.0F);
+  if (said.warns)
+    ImGui::TextColored({1.0F, 0.62F, 0.35F, 1.0F}, "%s", said.words.c_str());
   else
-    ImGui::TextDisabled("left arm: %s · right arm: %s · F10: live", tool(0), tool(1));
+    ImGui::TextDisabled("%s", said.words.c_str());
+  ImGui::PopTextWrapPos();
+  note_item(said.words.c_str());
 }
 
 void AttemptPanel::draw_arms_live(PersonAttempt& attempt) {

@@ -10,6 +10,7 @@
 #include "app/window/trainer/plan_words.h"
 #include "assessment/grading/debrief.h"
 #include "assessment/registry.h"
+#include "casedb/cases/setting_table.h"
 #include "reports/words/attempt_words.h"
 #include "reports/words/dependability_words.h"
 #include "reports/words/metric_card.h"
@@ -160,6 +161,7 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   if (row.modality == cases::Modality::xray && row.sight_law == cases::SightLaw::scatter)
     fact("Field", "scatter from the patient veils the picture; narrowing the collimator makes it clearer");
   fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
+  fact("Its tip", std::string(base::name_of(casedb::kTipWords, row.touch.tip)));
   const bool phantom = row.subject == cases::Subject::phantom;
   if (phantom)
     fact("On the table", "a block of gel, no patient: no sign-in, no anaesthetic, no held breath");

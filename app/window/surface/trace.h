@@ -50,7 +50,7 @@ struct TraceLine {
   double heap_mib = 0.0;                             // what the program holds; told outside attempts only
   std::vector<std::string> sounds;                   // that began, heard or not
   std::optional<EditorTrace> editor{};
-  std::vector<std::string> arms;    // left, right: "ok", "late", "lost"; empty: none are used
+  std::vector<std::string> arms;    // left, right: "ok", "at_limit", "late", "lost"; empty: none are used
   std::string asks;                 // what the device page asks its user for
   int keys = 0;                     // pressed since the window opened, of which the screen shows what they did
   std::string focus;                // the item that the keyboard is on; empty: one without a name, or none

@@ -16,6 +16,10 @@ constexpr double kSameHoleMm = 2.0, kSameHoleCosine = 0.99;
 // Flatter to the skin than 14.5°, or 78° off its own track, it counts as just that (design): both divide by it.
 constexpr double kFlattest = 0.25, kMostTurned = 0.2;
 
+// A nick is the prick of a pointed blade, 3 to 5 mm long, through the skin: a disc, as nobody says which way it is
+// cut; and its edge, over which the skin holds again (design).
+constexpr double kNickRadiusMm = 2.0, kNickEdgeMm = 2.0;
+
 double length(const glm::dvec3& v) noexcept {
   return std::sqrt(glm::dot(v, v));
 }
@@ -63,7 +67,14 @@ std::span<const cases::Lesion> felt_lesions(const cases::Case& scene) {
 HeldNeedle::HeldNeedle(const cases::Case& scene)
     : scene_(&scene),
       gauge_(gauge_of(scene.instrument)),
-      tissue_(scene.volume, scene.classes, gauge_, felt_lesions(scene)) {}
+      tissue_(scene.volume, scene.classes, gauge_, felt_lesions(scene), scene.touch) {}
+
+double skin_share(const glm::dvec3& p_lps_mm, std::span<const glm::dvec3> nicks_lps_mm) noexcept {
+  double share = 1.0;
+  for (const glm::dvec3& nick : nicks_lps_mm)
+    share = std::min(share, (length(p_lps_mm - nick) - kNickRadiusMm) / kNickEdgeMm);
+  return std::max(0.0, share);
+}
 
 // Along the needle from the undeformed skin to the tip. Continuous: no ray's miss makes it jump.
 double HeldNeedle::below_skin_mm(const cases::ToolPose& pose, const cases::SkinPassage& skin) const noexcept {
@@ -73,7 +84,8 @@ double HeldNeedle::below_skin_mm(const cases::ToolPose& pose, const cases::SkinP
 }
 
 HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw& law,
-                                    const NeedleSideLaw& side_law, HeldNeedleState& state) const noexcept {
+                                    const NeedleSideLaw& side_law, std::span<const glm::dvec3> nicks_lps_mm,
+                                    HeldNeedleState& state) const noexcept {
   const glm::dvec3& tip_lps_mm = pose.position_lps_mm;
   const double on_line_mm = glm::dot(tip_lps_mm - state.entry_lps_mm, state.direction);
   // In its track, it is in the body: the skin, costly to ask from deep below, is asked again at the hole.
@@ -112,6 +124,12 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
       tissue_.look(state.entry_lps_mm, state.direction, kAheadMm, 0.0, state.track, state.path);
       state.ticks_to_look = kTicksBetweenLooks;
       state.looked_mm = 0.0;  // of another line than the one that opens
+    }
+    if (!nicks_lps_mm.empty()) {
+      const double share = skin_share(state.entry_lps_mm, nicks_lps_mm);
+      NeedleTissue& skin = state.path.layers[0].tissue;
+      skin.rupture_n = share * tissue_.skin().rupture_n;
+      skin.intercept_n = share * tissue_.skin().intercept_n;
     }
   } else {
     state.depth_mm = on_line_mm;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "sim/case/case.h"
 #include "sim/case/inputs.h"
@@ -45,9 +46,9 @@ class HeldNeedle {
   // The needle of the scene's instrument: what its side law needs.
   const cases::Gauge& gauge() const noexcept { return gauge_; }
 
-  // One tick: position = tip, axis = unit, hub → tip. Allocates nothing.
+  // One tick: position = tip, axis = unit, hub → tip. nicks_lps_mm: where the skin is cut. Allocates nothing.
   HeldNeedleForce advance(const cases::ToolPose& pose, const NeedleLaw& law, const NeedleSideLaw& side_law,
-                          HeldNeedleState& state) const noexcept;
+                          std::span<const glm::dvec3> nicks_lps_mm, HeldNeedleState& state) const noexcept;
 
  private:
   double below_skin_mm(const cases::ToolPose& pose, const cases::SkinPassage& skin) const noexcept;
@@ -56,6 +57,9 @@ class HeldNeedle {
   cases::Gauge gauge_;
   TissueAlongNeedle tissue_;
 };
+
+// What is left of the skin's resistance there: none within a nick, all of it beside.
+double skin_share(const glm::dvec3& p_lps_mm, std::span<const glm::dvec3> nicks_lps_mm) noexcept;
 
 // The hand was not followed for some ticks: the next has no speed.
 void interrupt(HeldNeedleState& state) noexcept;

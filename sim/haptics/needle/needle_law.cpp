@@ -1,7 +1,9 @@
 #include "sim/haptics/needle/needle_law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "sim/base/check.h"
 #include "sim/base/exact_math.h"
@@ -17,13 +19,18 @@ constexpr double kShaftShare = 0.4;
 // A capsule's spring is R (a q + (1 − a) q²) with q = dent / full dent: soft at touch, stiffest at rupture
 // (design).
 constexpr double kCapsuleLinearPart = 0.25;
-constexpr double kCapsuleSteepest = 2.0 - kCapsuleLinearPart;  // its steepest slope, in R / full dent
 // The fall after a rupture takes 5-20 ms (our judgement).
 constexpr double kRuptureFallS = 0.008;
 // A high fall takes as long as it needs to be no step, 0.1 N a tick (design; the goal of 0.15 N a tick).
 constexpr double kMostFallNS = 100.0;
 // Relaxation: to this part of what slides or cuts, with this time (our judgement, within 5-20 s).
 constexpr double kRelaxedPart = 0.65, kRelaxationS = 10.0;
+
+// The faster, the less a capsule bears, down to a bound (Mahvash and Dupont, IEEE ICRA 2009, PMC3051196, read; IEEE
+// TBME 2010, recalled: porcine heart); by how much a decade, and between which speeds, is design.
+constexpr double kLessADecade = 0.15;
+// Counts of an encoder make speeds of their own; a hand's lasts longer (design).
+constexpr double kSpeedS = 0.03;
 
 double next_start_mm(Path path, const NeedleTrack& track) noexcept {
   return track.opened < path.size() ? path[track.opened].start_mm : std::numeric_limits<double>::infinity();
@@ -41,6 +48,11 @@ double friction_limit_n(Path path, double length_mm, const NeedleTrack& track) n
 
 }  // namespace
 
+NeedleSettings of_law(NeedleSettings settings, cases::TouchLaw law) noexcept {
+  settings.relaxation = settings.rupture_by_speed = law == cases::TouchLaw::by_speed;
+  return settings;
+}
+
 // The wall before the tip: a spring up to `limit_n`, which it bears at a stretch of `reach_mm`; then it is cut.
 struct NeedleLaw::Tip {
   double stiffness_n_mm, limit_n, reach_mm;
@@ -51,7 +63,18 @@ NeedleLaw::NeedleLaw(const NeedleSettings& settings)
       damper_({.tick_s = settings.tick_s,
                .damping_n_s_mm = settings.damping_n_s_mm,
                .stiffness_n_mm = settings.stiffness_n_mm}),
-      falling_share_(1.0 - base::exact_exp(-settings.tick_s / kRuptureFallS)) {}
+      falling_share_(1.0 - base::exact_exp(-settings.tick_s / kRuptureFallS)),
+      speed_share_(1.0 - base::exact_exp(-settings.tick_s / kSpeedS)) {
+  // The spring's slope where it bears the most that may open it, in R / full dent.
+  const double most = settings.rupture_by_speed ? rupture_share(kSlowestMmS) : 1.0;
+  capsule_steepest_ = std::sqrt(kCapsuleLinearPart * kCapsuleLinearPart + 4.0 * (1.0 - kCapsuleLinearPart) * most);
+}
+
+double rupture_share(double speed_mm_s) noexcept {
+  const double decades =
+      base::exact_log(std::clamp(speed_mm_s, kSlowestMmS, kFastestMmS) / kRowSpeedMmS) / std::numbers::ln10;
+  return 1.0 - kLessADecade * decades;
+}
 
 double inserted_mm(Path path, double depth_mm, const NeedleTrack& track) noexcept {
   return track.opened == 0 ? 0.0 : std::max(0.0, std::min(track.cut_mm, depth_mm) - path[0].start_mm);
@@ -63,6 +86,10 @@ NeedleLaw::Tip NeedleLaw::tip_of(const NeedleTissue& tissue) const noexcept {
   // The line is measured at the hub's depth; the shaft in tissue is shorter by the reach = limit / stiffness.
   const double limit_n = tissue.intercept_n / (1.0 - tissue.slope_n_mm / stiffness_n_mm);
   return {stiffness_n_mm, limit_n, limit_n / stiffness_n_mm};
+}
+
+double NeedleLaw::opens_at_n(const NeedleTissue& tissue, const NeedleTrack& track) const noexcept {
+  return settings_.rupture_by_speed ? tissue.rupture_n * rupture_share(track.speed_mm_s) : tissue.rupture_n;
 }
 
 double NeedleLaw::shaft_stiffness_n_mm(double length_mm) const noexcept {
@@ -91,7 +118,7 @@ double NeedleLaw::tip_force_n(Path path, double depth_mm, const NeedleTrack& tra
   if (next.tissue.impenetrable) return force_n + beside_shaft_n_mm * dent_mm;
   if (!(next.tissue.rupture_n > 0.0)) return force_n;
   const double full_dent_mm =
-      std::max(next.tissue.dent_mm, kCapsuleSteepest * next.tissue.rupture_n / beside_shaft_n_mm);
+      std::max(next.tissue.dent_mm, capsule_steepest_ * next.tissue.rupture_n / beside_shaft_n_mm);
   const double q = dent_mm / full_dent_mm;
   return force_n + next.tissue.rupture_n * q * (kCapsuleLinearPart + (1.0 - kCapsuleLinearPart) * q);
 }
@@ -122,9 +149,11 @@ NeedleForce NeedleLaw::advance(Path path, double depth_mm, NeedleTrack& track) c
   if (track.opened == 0 && !path.empty()) track.cut_mm = path[0].start_mm;
   if (track.opened > 0) cut(path, depth_mm, track);
   force.tip_n = path.empty() ? 0.0 : tip_force_n(path, depth_mm, track);
+  const double moved_mm = track.begun ? depth_mm - track.last_depth_mm : 0.0;
+  track.speed_mm_s += speed_share_ * (moved_mm / settings_.tick_s - track.speed_mm_s);
 
   if (track.opened < path.size() && !path[track.opened].tissue.impenetrable && depth_mm > track.cut_mm &&
-      track.cut_mm >= path[track.opened].start_mm && force.tip_n >= path[track.opened].tissue.rupture_n) {
+      track.cut_mm >= path[track.opened].start_mm && force.tip_n >= opens_at_n(path[track.opened].tissue, track)) {
     force.ruptured = true;
     const double held_n = force.tip_n + track.shaft_n + track.damper_n;
     ++track.opened;

@@ -2,8 +2,9 @@
 // rupture; the tip meets an elastic wall that it pushes on once the wall's force reaches what cutting takes (an
 // elasto-plastic "tracking wall", Alamilla 2018); the shaft drags the tissue along and slides once friction's limit
 // is reached (Dahl's model of order 0). Nothing depends on speed but a damper on how fast these springs load, so a
-// force is the same at any speed and stays at rest. Out of the track, only friction pulls back; into it again,
-// nothing is cut that was cut. Only + − × ÷: the same bits everywhere.
+// force is the same at any speed and stays at rest; where it is asked for, what is held relaxes, and a capsule
+// opens at less the faster it is pushed (docs/decisions/0088). Out of the track, only friction pulls back; into it
+// again, nothing is cut that was cut. Only + − × ÷: the same bits everywhere.
 #pragma once
 
 #include <cstddef>
@@ -25,13 +26,20 @@ struct NeedleLayer {
 // elastic medium; G is our judgement).
 inline constexpr double kShaftStiffnessNMm2 = 0.005;
 
+// Of what opens by speed: the rows' own speed (the thesis' 500 mm/min), and where the law ends.
+inline constexpr double kRowSpeedMmS = 500.0 / 60.0, kSlowestMmS = 1.0, kFastestMmS = 100.0;
+
 struct NeedleSettings {
   double tick_s = 0.001;
   double damping_n_s_mm = kWallDampingNSMm;
   // All springs that act at once add up to no more; softer springs give way further for the same force.
   double stiffness_n_mm = stiffness_bound_n_mm(kWallDampingNSMm, 0.001, 0.001) / kStiffnessMargin;
-  bool relaxation = false;  // of tissue held in a stretch
+  bool relaxation = false;        // of tissue held in a stretch
+  bool rupture_by_speed = false;  // a capsule's row is that of kRowSpeedMmS
 };
+
+// The same by a case's law of touch.
+NeedleSettings of_law(NeedleSettings settings, cases::TouchLaw law) noexcept;
 
 // What a needle's way has left behind: all that must be kept from tick to tick. A new one: nothing touched yet.
 struct NeedleTrack {
@@ -39,7 +47,8 @@ struct NeedleTrack {
   double cut_mm = 0.0;     // where the tip's wall stands: how far along the undeformed path tissue is cut
   double shaft_n = 0.0, falling_n = 0.0, damper_n = 0.0;
   double last_depth_mm = 0.0, last_elastic_n = 0.0;
-  bool begun = false;  // false: last_* say nothing yet
+  double speed_mm_s = 0.0;  // of the tip along the path, smoothed
+  bool begun = false;       // false: last_* say nothing yet
 };
 
 // Newtons; > 0 resists insertion.
@@ -68,6 +77,7 @@ class NeedleLaw {
   struct Tip;  // what the tissue at the tip does
 
   Tip tip_of(const NeedleTissue& tissue) const noexcept;
+  double opens_at_n(const NeedleTissue& tissue, const NeedleTrack& track) const noexcept;
   double shaft_stiffness_n_mm(double length_mm) const noexcept;
   double tip_force_n(std::span<const NeedleLayer> path, double depth_mm, const NeedleTrack& track) const noexcept;
   void cut(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
@@ -75,8 +85,11 @@ class NeedleLaw {
 
   NeedleSettings settings_;
   ElasticDamper damper_;
-  double falling_share_;
+  double falling_share_, speed_share_, capsule_steepest_;
 };
+
+// A capsule's force at a speed, in that of its row: 1 at kRowSpeedMmS, falling with the speed's logarithm.
+double rupture_share(double speed_mm_s) noexcept;
 
 // How much of the needle is in tissue, mm.
 double inserted_mm(std::span<const NeedleLayer> path, double depth_mm, const NeedleTrack& track) noexcept;

@@ -25,18 +25,23 @@ bool is_lesion(TissueClass tissue) {
 }  // namespace
 
 TissueAlongNeedle::TissueAlongNeedle(const volume::Volume& volume, std::span<const TissueClass> classes,
-                                     const cases::Gauge& gauge, std::span<const cases::Lesion> lesions)
-    : volume_(&volume), classes_(classes), voxel_from_lps_(volume::voxel_from_lps(volume)), gauge_(gauge) {
+                                     const cases::Gauge& gauge, std::span<const cases::Lesion> lesions,
+                                     const cases::Touch& touch)
+    : volume_(&volume),
+      classes_(classes),
+      voxel_from_lps_(volume::voxel_from_lps(volume)),
+      gauge_(gauge),
+      touch_(touch) {
   CHECK(classes.size() == volume.hu.size());
   for (const NeedleTissueRow& row : needle_tissues())
-    rows_[static_cast<std::size_t>(row.tissue)] = at_gauge(row.needle, gauge);
+    rows_[static_cast<std::size_t>(row.tissue)] = felt_by(row.needle, gauge, touch);
   for (std::size_t i = 0; i < lesions.size(); ++i) {
     const cases::Lesion& lesion = lesions[i];
     const bool by_hu = lesion.kind == cases::LesionKind::by_hu;
     if ((by_hu && lesion.in_volume()) || !(lesion.radius_mm > 0.0)) continue;
     const cases::Shape shape = cases::shape_of(lesion);
     lesions_.push_back({static_cast<TissueClass>(volume::kTissueClasses + i), shape, cases::bounds_of(shape),
-                        at_gauge(needle_tissue(lesion), gauge), lesion.hu});
+                        felt_by(needle_tissue(lesion), gauge, touch), lesion.hu});
   }
 }
 
@@ -109,7 +114,7 @@ void TissueAlongNeedle::look(const glm::dvec3& entry_lps_mm, const glm::dvec3& d
     const bool hard = row(run).impenetrable;
     if (hard || along_mm - run_mm >= kThinnestMm) add(run_mm, run, path);
     if (run == TissueClass::soft_tissue && path.count > fixed && path.tissues[path.count - 1] == run)
-      path.layers[path.count - 1].tissue = at_gauge(soft_tissue_of_hu(sum_hu / n), gauge_);
+      path.layers[path.count - 1].tissue = felt_by(soft_tissue_of_hu(sum_hu / n), gauge_, touch_);
   }
 }
 

@@ -30,7 +30,11 @@ class TissueAlongNeedle {
   // One class per voxel (CHECKed). Both must outlive this. Lesions come before the volume, the first that contains
   // a point wins; left out are those by HU that lie in the volume, as their class does.
   TissueAlongNeedle(const volume::Volume& volume, std::span<const volume::TissueClass> classes,
-                    const cases::Gauge& gauge, std::span<const cases::Lesion> lesions = {});
+                    const cases::Gauge& gauge, std::span<const cases::Lesion> lesions = {},
+                    const cases::Touch& touch = {});
+
+  // Skin as this needle feels it.
+  const NeedleTissue& skin() const noexcept { return row(volume::TissueClass::skin); }
 
   // The line from `entry_lps_mm` on the skin (depth 0) along the unit vector `direction`, as far as `length_mm`.
   // Layers of `path` that the track has entered, or that the tip at depth_mm is beyond, stay as they are; those
@@ -60,6 +64,7 @@ class TissueAlongNeedle {
   std::span<const volume::TissueClass> classes_;
   glm::dmat4 voxel_from_lps_;
   cases::Gauge gauge_;
+  cases::Touch touch_;
   std::array<NeedleTissue, volume::kTissueClasses> rows_;
   std::vector<Felt> lesions_;
 };

@@ -43,9 +43,22 @@ NeedleTissue soft_tissue_of_hu(double hu) noexcept;
 // Of a lesion: its kind's row, or that of the class its HU tell (what HU cannot tell apart: as HU lie).
 NeedleTissue needle_tissue(const cases::Lesion& lesion) noexcept;
 
+// What a form of tip does with the force of a tissue's row, which is a Chiba's: the parts of it.
+struct NeedleTipRow {
+  cases::NeedleTip tip;
+  double cutting, rupture, friction;
+  const char* provenance;
+};
+// One row per form, in their order.
+std::span<const NeedleTipRow, cases::kNeedleTipNames.size()> needle_tips() noexcept;
+
 // The row for another gauge: forces grow in proportion to the outer diameter (design; Jiang, J Biomech 2014,
 // reports strong growth from 0.7 to 3.2 mm, and friction acts on the circumference).
 NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge);
+// The row for another needle, as the case's law of touch says: that of before by gauge alone; the newest by its
+// parts. What is torn grows with the blade, so with the diameter, what is spread with its square; a capsule opens
+// by being torn alone; friction grows with the circumference. Each as the tip's row says.
+NeedleTissue felt_by(const NeedleTissue& tissue, const cases::Gauge& gauge, const cases::Touch& touch);
 // The other way round: what was measured with that gauge, as a row of the table.
 NeedleTissue at_table_gauge(const NeedleTissue& measured, const cases::Gauge& gauge);
 

@@ -156,9 +156,10 @@ TEST_F(SettingTableTest, EachIsInJson) {
   EXPECT_EQ(json.at("clinic").at("decision"), "proceed");
   EXPECT_EQ(json.at("clinic").at("inr"), 1.25);
   EXPECT_TRUE(json.at("time_limit_s").is_null());
-  EXPECT_EQ(json.at("instrument").dump(),
-            R"({"kind":"core","length_mm":200.0,"outer_diameter_mm":0.72,"throw_mm":22.0,"notch_mm":18.0,)"
-            R"("dead_tip_mm":4.0})");
+  EXPECT_EQ(
+      json.at("instrument").dump(),
+      R"({"kind":"core","tip":"bevel","length_mm":200.0,"outer_diameter_mm":0.72,"throw_mm":22.0,"notch_mm":18.0,)"
+      R"("dead_tip_mm":4.0})");
   ASSERT_TRUE(set_setting(library_, case_id_, CaseSetting{}));
   json = nlohmann::ordered_json::object();
   add_authoring(load_parts(library_, case_id_).value(), json);

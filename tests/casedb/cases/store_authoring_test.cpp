@@ -341,6 +341,37 @@ TEST_F(AuthoringTest, WhoBreathedBeforeTheNewestLawMovesAsBefore) {
   EXPECT_EQ(code(set_setting(library_, next, setting)), "bad_setting");
 }
 
+// Schema 42: what is published or attempted feels as it did, a draft and a new version by the newest law.
+TEST_F(AuthoringTest, WhatWasFeltBeforeTheNewestLawIsFeltAsBefore) {
+  add_users();
+  const std::string draft = add_case(library_, sample_case()), attempted = add_case(library_, sample_case()),
+                    published = add_case(library_, sample_case());
+  EXPECT_EQ(find_case(library_, draft).value().touch.law, cases::kNewestTouchLaw) << "of a new case";
+  const std::string lesion_id = add_lesion(library_, attempted, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(attempted, lesion_id)).value());
+  for (const char* earlier :
+       {"DROP TRIGGER training_case_keeps_its_touch", "ALTER TABLE training_case DROP COLUMN instrument_tip",
+        "ALTER TABLE training_case DROP COLUMN touch_law"})
+    library_.database().run(earlier);
+  library_.database().run("UPDATE training_case SET state = 'published' WHERE case_id = '" + published + "'");
+  library_.database().run(std::string(library_schema().steps[41].content));
+
+  const auto touch_of = [&](const std::string& case_id) { return find_case(library_, case_id).value().touch; };
+  for (const std::string& case_id : {published, attempted}) {
+    EXPECT_EQ(touch_of(case_id).law, cases::TouchLaw::steady);
+    EXPECT_EQ(touch_of(case_id).tip, cases::NeedleTip::bevel);
+    refuse("UPDATE training_case SET touch_law = 'by_speed' WHERE case_id = '" + case_id + "'");
+    refuse("UPDATE training_case SET instrument_tip = 'core' WHERE case_id = '" + case_id + "'");
+  }
+  EXPECT_EQ(touch_of(draft).law, cases::TouchLaw::by_speed);
+  const std::string next = new_version(library_, published, "ann").value();
+  EXPECT_EQ(touch_of(next).law, cases::TouchLaw::by_speed);
+  CaseSetting setting = find_case(library_, next).value();
+  setting.touch.tip = cases::NeedleTip::trocar;
+  ASSERT_TRUE(set_setting(library_, next, setting));
+  EXPECT_EQ(touch_of(new_version(library_, next, "ann").value()).tip, cases::NeedleTip::trocar);
+}
+
 TEST_F(AuthoringTest, SettingsThatAreNotSoundAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<CaseSetting> bad(13, full_setting());

@@ -104,6 +104,15 @@ TEST_F(CaseBuild, OrgansAreShownByTheCasesLawOfSight) {
   EXPECT_EQ(older.echogenicity, imaging::echogenicity(older.volume, older.classes));
 }
 
+// So do force and tip: a new case has the newest law, one of before keeps its own.
+TEST_F(CaseBuild, TouchIsByTheCasesLawAndTip) {
+  EXPECT_EQ(build({}, Needs::touch).touch.law, cases::kNewestTouchLaw);
+  EXPECT_EQ(build({}, Needs::touch).touch.tip, cases::NeedleTip::bevel);
+  library_.database().run("UPDATE training_case SET instrument_tip = 'trocar', touch_law = 'steady'");
+  EXPECT_EQ(build({}, Needs::touch).touch.law, cases::TouchLaw::steady);
+  EXPECT_EQ(build({}, Needs::touch).touch.tip, cases::NeedleTip::trocar);
+}
+
 TEST_F(CaseBuild, OnlyWhatIsNeededIsBuilt) {
   add("vessel", cases::Sphere{{0, 20, 0}, 8.0}, TissueClass::vessel, 43.0);
   EXPECT_TRUE(build(ellipsoid(), Needs::metrics).classes.empty());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <tuple>
 #include <vector>
 
@@ -56,6 +57,7 @@ class Trial {
     for (const cases::Event& event : told) all.push_back(event.kind);
     return all;
   }
+  std::span<const glm::dvec3> nicks() const { return nicks_of(memory_); }
   double x_mm = 0.3;
   std::vector<cases::Event> told;
 
@@ -67,6 +69,26 @@ class Trial {
 };
 
 using Kinds = std::vector<EventKind>;
+
+// A nick is where the needle points at the skin; by the law of touch of before, nobody felt one.
+TEST(Patient, IsNickedWhereTheNeedlePoints) {
+  cases::Case scene = body_with_a_plate();
+  for (const cases::TouchLaw law : {cases::TouchLaw::steady, cases::TouchLaw::by_speed}) {
+    scene.touch.law = law;
+    Trial trial(scene);
+    trial.tick(-140.0);
+    trial.tick(-140.0, EventKind::nick);
+    if (law == cases::TouchLaw::steady) {
+      EXPECT_TRUE(trial.nicks().empty());
+      continue;
+    }
+    ASSERT_EQ(trial.nicks().size(), 1U);
+    EXPECT_NEAR(glm::distance(trial.nicks()[0], glm::dvec3(0.3, -100.0, 0.3)), 0.0, 0.5);
+    for (int i = 0; i < 5; ++i) trial.tick(-140.0, EventKind::nick);
+    EXPECT_EQ(trial.nicks().size(), kNickPlaces) << "the latest are remembered";
+    EXPECT_TRUE(trial.kinds().empty()) << "and none of them hurts";
+  }
+}
 
 TEST(Patient, SkinThatIsNotNumbHurtsAtEachPuncture) {
   const cases::Case scene = body_with_a_plate();

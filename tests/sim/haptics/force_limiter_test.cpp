@@ -34,6 +34,7 @@ TEST(ForceLimiter, PassesWhatADeviceCanDo) {
   EXPECT_LE(glm::length(limiter.advance({0.5, -0.5, 0.2}, kTick, true, state)), 0.02) << "it comes in slowly";
   const glm::dvec3 out = settled(limiter, {0.5, -0.5, 0.2}, state);
   EXPECT_NEAR(glm::distance(out, {0.5, -0.5, 0.2}), 0.0, 1e-12);
+  EXPECT_EQ(state.held_back_n, 0.0);
 }
 
 TEST(ForceLimiter, KeepsPeakAndDirection) {
@@ -45,6 +46,9 @@ TEST(ForceLimiter, KeepsPeakAndDirection) {
   EXPECT_LE(most, 3.3 + 1e-12);
   EXPECT_GT(most, 3.0) << "and gives it while it is cold";
   EXPECT_NEAR(state.out_n.x / state.out_n.y, 0.75, 1e-9);
+  EXPECT_NEAR(state.held_back_n, 50.0 - 3.3, 1e-9) << "what is not felt is told";
+  limiter.advance({3.0, 4.0, 0.0}, kTick, false, state);
+  EXPECT_EQ(state.held_back_n, 0.0) << "a fault is another matter";
 }
 
 // S17

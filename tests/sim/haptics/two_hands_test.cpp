@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <vector>
 
 #include "tests/fixtures/allocations.h"
 #include "tests/sim/haptics/bodies.h"
@@ -92,6 +94,59 @@ TEST(TwoHands, AHoleStaysAHole) {
   EXPECT_LT(again_n, 0.5 * first_n) << "no second one";
   EXPECT_NEAR(beside_n, first_n, 0.02) << "beside it, there is";
   EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+}
+
+// Within it the skin lets go at once, beside it as before; what lies below is as it was.
+TEST(TwoHands, ANeedleDropsIntoANick) {
+  const std::array<glm::dvec3, 2> nicks = {glm::dvec3{0.0, 0.0, 0.0}, {-30.0, 0.0, 0.0}};
+  const auto into = [&](double x_mm, std::span<const glm::dvec3> nicked, double to_mm) {
+    Right right(flat_body());
+    HandInput input = holding(Tool::needle, {x_mm, 0.0, 10.0});
+    input.nicks_lps_mm = nicked;
+    right.move(input, {x_mm, 0.0, -to_mm}, 3000);
+    EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+    EXPECT_EQ(right.states[1].needle.track.opened > 0, true);
+    return right.peak_n;
+  };
+  const double whole_n = into(0.0, {}, 12.0);
+  EXPECT_GT(whole_n, 2.4) << "the skin's rupture";
+  for (const double x_mm : {0.0, 1.5, -30.0, -28.5})
+    EXPECT_LT(into(x_mm, nicks, 12.0), 0.5) << x_mm << ": fat's rupture alone is left";
+  EXPECT_NEAR(into(-10.0, nicks, 12.0), whole_n, 0.02) << "beside them";
+  const double edge_n = into(3.0, nicks, 12.0);
+  EXPECT_GT(edge_n, 0.3 * whole_n);
+  EXPECT_LT(edge_n, 0.7 * whole_n);
+  // Pressed in beside and drawn over it: it falls in, and no tick is a step.
+  Right right(flat_body());
+  HandInput input = holding(Tool::needle, {-10.0, 0.0, 5.0});
+  input.nicks_lps_mm = nicks;
+  right.move(input, {-10.0, 0.0, -6.0}, 1000);
+  ASSERT_EQ(right.states[1].needle.track.opened, 0U);
+  input.pose.position_lps_mm = {-10.0, 0.0, -6.0};
+  right.move(input, {0.0, 0.0, -6.0}, 500);
+  EXPECT_GT(right.states[1].needle.track.opened, 0U);
+  EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+}
+
+// The law of touch and the tip are the case's: what was published is bit for bit as it was.
+TEST(TwoHands, ACasesLawOfTouchAndTipAreFelt) {
+  const auto course = [&](const cases::Touch& touch) {
+    cases::Case scene = flat_body();
+    scene.touch = touch;
+    Right right(scene);
+    std::vector<double> n;
+    for (int i = 0; i < 2000; ++i)
+      n.push_back(right.tick(holding(Tool::needle, {0.0, 0.0, 5.0 - 0.03 * i})).wanted_n.z);
+    return n;
+  };
+  const auto published = course({});
+  EXPECT_EQ(course({.tip = cases::NeedleTip::trocar}), published) << "whatever its tip says";
+  const auto chiba = course({.law = cases::TouchLaw::by_speed});
+  const auto trocar = course({cases::NeedleTip::trocar, cases::TouchLaw::by_speed});
+  EXPECT_NE(chiba, published);
+  EXPECT_LT(*std::max_element(chiba.begin(), chiba.end()), *std::max_element(published.begin(), published.end()))
+      << "30 mm/s is faster than the rows' speed";
+  EXPECT_GT(trocar.back(), 1.1 * chiba.back());
 }
 
 TEST(TwoHands, TissueHoldsTheNeedleSideways) {

@@ -29,6 +29,27 @@ TEST(ActWords, OfWhatIsSaidAreForEverythingThatATraineeSaysInTheRoom) {
   EXPECT_NE(said_words({EventKind::probe_checked, 0.0, true}), said_words({EventKind::probe_checked, 0.0, false}));
 }
 
+TEST(ActWords, OfTheArmsTellWhatStandsInTheWayFirst) {
+  ArmsHeld arms{.used = true, .lost = {}, .tools = {haptics::Tool::probe, haptics::Tool::needle}};
+  EXPECT_EQ(arms_words(arms).words, "left arm: probe · right arm: needle · F10: live");
+  EXPECT_FALSE(arms_words(arms).warns);
+  arms.at_limit[1] = true;
+  EXPECT_EQ(arms_words(arms).words, "right arm at its limit: tissue resists more");
+  EXPECT_TRUE(arms_words(arms).warns);
+  EXPECT_STREQ(arm_state(arms, haptics::Side::right), "at_limit");
+  EXPECT_STREQ(arm_state(arms, haptics::Side::left), "ok");
+  arms.at_limit[0] = true;
+  EXPECT_EQ(arms_words(arms).words, "both arms at their limit: tissue resists more");
+  arms.late[0] = true;
+  EXPECT_EQ(arms_words(arms).words, "the left arm answers too late to push back: no force there");
+  arms.late[1] = true;
+  EXPECT_EQ(arms_words(arms).words, "both arms answer too late to push back: no force there");
+  arms.lost[1] = true;
+  EXPECT_EQ(arms_words(arms).words, "right arm lost: the needle stays, mouse and keys move it (Tab)");
+  EXPECT_STREQ(arm_state(arms, haptics::Side::right), "lost");
+  EXPECT_STREQ(arm_state(arms, haptics::Side::left), "late");
+}
+
 TEST(ActWords, OfAnAnaestheticTellTheNewestPlace) {
   engine::Moment moment;
   moment.state.needle.skin.tip_lps_mm = {0.0, 0.0, 0.0};

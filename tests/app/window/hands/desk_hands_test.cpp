@@ -81,5 +81,16 @@ TEST(DeskHands, AnArmFeelsWhatItsToolPressesOnAndALostOneLeavesItToTheMouse) {
   EXPECT_FALSE(hands.arms().lost[0]);
 }
 
+// What comes and goes from tick to tick is one notice, and is over a second after the last of it.
+TEST(DeskHands, ALimitIsSaidForASecondAndDoesNotFlicker) {
+  double left_s = 0.0;
+  EXPECT_FALSE(limit_is_said(0.0, kTickS, left_s));
+  EXPECT_FALSE(limit_is_said(0.5 * kFeltLessN, kTickS, left_s)) << "nobody feels that";
+  for (int i = 0; i < 500; ++i) EXPECT_TRUE(limit_is_said(i % 20 == 0 ? 1.0 : 0.0, kTickS, left_s)) << i;
+  int said = 0;
+  while (limit_is_said(0.0, kTickS, left_s)) ++said;
+  EXPECT_NEAR(said * kTickS, kSaidLimitS, 0.03);
+}
+
 }  // namespace
 }  // namespace seldinger::app

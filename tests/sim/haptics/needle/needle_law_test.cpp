@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -206,12 +207,55 @@ TEST(NeedleLaw, NoTickIsAStepUpTo200MmPerSecond) {
     if (!(row.needle.rupture_n > 0.0)) continue;
     for (const int gauge : {16, kTableGauge, 25})
       for (const double speed : {1.0, 8.33, 50.0, 100.0, 200.0}) {
-        const auto samples = insert({at_gauge(row.needle, *cases::gauge(gauge)), speed, 70.0, 0.1, true}, {});
-        for (std::size_t i = 1; i < samples.size(); ++i) {
-          const double step = std::abs(samples[i].force.axial_n - samples[i - 1].force.axial_n);
-          ASSERT_TRUE(std::isfinite(step));
-          EXPECT_LE(step, 0.15) << name_of(row.tissue) << " " << speed << " at " << samples[i].depth_mm;
+        for (const cases::TouchLaw touch : {cases::TouchLaw::steady, cases::TouchLaw::by_speed}) {
+          const NeedleTissue felt = felt_by(row.needle, *cases::gauge(gauge), {.law = touch});
+          const auto samples = insert({felt, speed, 70.0, 0.1, true}, of_law({}, touch));
+          for (std::size_t i = 1; i < samples.size(); ++i) {
+            const double step = std::abs(samples[i].force.axial_n - samples[i - 1].force.axial_n);
+            ASSERT_TRUE(std::isfinite(step));
+            EXPECT_LE(step, 0.15) << name_of(row.tissue) << " " << speed << " at " << samples[i].depth_mm;
+          }
         }
+      }
+  }
+}
+
+// The newest law: what opens, opens at less the faster; what the plateau is, speed does not change (within 6 %).
+TEST(NeedleLaw, ACapsuleOpensAtLessTheFasterItIsPushed) {
+  const NeedleSettings settings = of_law({}, cases::TouchLaw::by_speed);
+  EXPECT_FALSE(NeedleSettings{}.rupture_by_speed) << "published cases keep theirs";
+  EXPECT_FALSE(of_law({}, cases::TouchLaw::steady).rupture_by_speed);
+  EXPECT_NEAR(rupture_share(kRowSpeedMmS), 1.0, 1e-12);
+  EXPECT_EQ(rupture_share(1e-3), rupture_share(kSlowestMmS));
+  EXPECT_EQ(rupture_share(1e3), rupture_share(kFastestMmS));
+  for (const TissueClass tissue : kMeasured) {
+    double last_n = std::numeric_limits<double>::infinity();
+    for (const double speed : {1.0, 3.0, kRowSpeedMmS, 30.0, 100.0}) {
+      const auto samples = insert({needle_tissue(tissue), speed, 60.0}, settings);
+      double opened_n = 0.0;
+      for (std::size_t i = 1; i < samples.size() && opened_n == 0.0; ++i)
+        if (samples[i].force.ruptured) opened_n = samples[i - 1].force.tip_n;
+      EXPECT_NEAR(opened_n / needle_tissue(tissue).rupture_n, rupture_share(speed), 0.08)
+          << name_of(tissue) << speed;
+      EXPECT_LT(opened_n, last_n) << name_of(tissue) << speed;
+      last_n = opened_n;
+      EXPECT_NEAR(samples.back().force.axial_n / line_n(tissue, 60.0), 1.0, 0.06) << name_of(tissue) << speed;
+    }
+  }
+}
+
+// No more is given back than was put in, at any speed and over any rest: pressed in, held, drawn out.
+TEST(NeedleLaw, BySpeedGivesNoEnergy) {
+  const NeedleSettings settings = of_law({}, cases::TouchLaw::by_speed);
+  for (const NeedleTissueRow& row : needle_tissues()) {
+    if (!(row.needle.rupture_n > 0.0)) continue;
+    for (const double speed : {1.0, 8.33, 100.0})
+      for (const double depth_mm : {0.7 * row.needle.dent_mm, 40.0}) {
+        const auto samples = insert({row.needle, speed, depth_mm, 1.0, true}, settings);
+        double given_mj = 0.0;
+        for (std::size_t i = 1; i < samples.size(); ++i)
+          given_mj -= samples[i].force.axial_n * (samples[i].depth_mm - samples[i - 1].depth_mm);
+        EXPECT_LE(given_mj, 1.0) << name_of(row.tissue) << speed;
       }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace seldinger::haptics {
@@ -68,6 +69,68 @@ TEST(NeedleTissues, ThickerNeedlesTakeMoreForce) {
   EXPECT_NEAR(back.slope_n_mm, liver.slope_n_mm, 1e-12);
   EXPECT_NEAR(back.rupture_n, liver.rupture_n, 1e-12);
   EXPECT_EQ(back.dent_mm, liver.dent_mm);
+}
+
+// Published and older cases: bit for bit, whatever their tip.
+TEST(NeedleTips, ByTheLawOfBeforeTheGaugeAloneCounts) {
+  for (const NeedleTissueRow& row : needle_tissues())
+    for (const int number : {16, 18, kTableGauge, 25})
+      for (const NeedleTipRow& tip : needle_tips()) {
+        const cases::Gauge gauge = *cases::gauge(number);
+        const NeedleTissue before = at_gauge(row.needle, gauge);
+        const NeedleTissue felt = felt_by(row.needle, gauge, {tip.tip, cases::TouchLaw::steady});
+        EXPECT_EQ(felt.slope_n_mm, before.slope_n_mm);
+        EXPECT_EQ(felt.intercept_n, before.intercept_n);
+        EXPECT_EQ(felt.rupture_n, before.rupture_n);
+        EXPECT_EQ(felt.tip_stiffness_n_mm, before.tip_stiffness_n_mm);
+      }
+}
+
+TEST(NeedleTips, EachHasItsRowAndSaysWhereItComesFrom) {
+  for (std::size_t i = 0; i < needle_tips().size(); ++i) {
+    const NeedleTipRow& tip = needle_tips()[i];
+    EXPECT_EQ(tip.tip, static_cast<cases::NeedleTip>(i));
+    EXPECT_NE(std::string(tip.provenance), "");
+  }
+  const NeedleTissue& kidney = needle_tissue(TissueClass::kidney);
+  const NeedleTissue chiba = felt_by(kidney, *cases::gauge(kTableGauge), {.law = cases::TouchLaw::by_speed});
+  EXPECT_NEAR(chiba.intercept_n, kidney.intercept_n, 1e-12) << "the rows are a Chiba's";
+  EXPECT_NEAR(chiba.slope_n_mm, kidney.slope_n_mm, 1e-12);
+  EXPECT_NEAR(chiba.rupture_n, kidney.rupture_n, 1e-12);
+}
+
+// What shares an end with a plateau's: friction is the circumference's, cutting lies between the blade's width and
+// the hole's area.
+TEST(NeedleTips, BladeAndShaftGrowApart) {
+  for (const NeedleTissueRow& row : needle_tissues()) {
+    if (!(row.needle.rupture_n > 0.0)) continue;
+    for (const NeedleTipRow& tip : needle_tips())
+      for (const int number : {16, 18, 25}) {
+        const cases::Gauge gauge = *cases::gauge(number), table = *cases::gauge(kTableGauge);
+        const cases::Touch touch{tip.tip, cases::TouchLaw::by_speed};
+        const NeedleTissue at_table = felt_by(row.needle, table, touch), felt = felt_by(row.needle, gauge, touch);
+        const double wide = gauge.outer_mm / table.outer_mm;
+        EXPECT_NEAR(felt.slope_n_mm / at_table.slope_n_mm, wide, 1e-12);
+        const double cutting = felt.intercept_n / at_table.intercept_n;
+        EXPECT_GT(cutting, std::min(wide, wide * wide));
+        EXPECT_LT(cutting, std::max(wide, wide * wide));
+        EXPECT_NEAR(felt.rupture_n / at_table.rupture_n, wide, 1e-12);
+        EXPECT_GT(felt.rupture_n, felt.intercept_n + felt.slope_n_mm * felt.dent_mm)
+            << base::name_of(cases::kNeedleTipNames, tip.tip) << " " << number << " "
+            << volume::about(row.tissue).name << ": a capsule is felt as a fall";
+      }
+  }
+}
+
+// Skin, 18 to 22 G: 2 to 4 N (van Gerwen 2012, Healey 2005, recalled), by the needles of these sizes.
+TEST(NeedleTips, SkinOpensWithinThePublishedRange) {
+  const NeedleTissue& skin = needle_tissue(TissueClass::skin);
+  const NeedleTissue chiba = felt_by(skin, *cases::gauge(22), {.law = cases::TouchLaw::by_speed});
+  const NeedleTissue core = felt_by(skin, *cases::gauge(18), {cases::NeedleTip::core, cases::TouchLaw::by_speed});
+  for (const double opens_n : {chiba.rupture_n, core.rupture_n}) {
+    EXPECT_GE(opens_n, 2.0);
+    EXPECT_LE(opens_n, 4.0);
+  }
 }
 
 }  // namespace

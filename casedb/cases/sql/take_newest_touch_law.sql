@@ -1,0 +1,5 @@
+-- A draft again, which nobody has attempted (migrations/0042_touch_by_needle.sql).
+UPDATE training_case SET touch_law = 'by_speed'
+WHERE case_id = :case_id AND touch_law = 'steady'
+  AND NOT EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = :case_id)
+  AND NOT EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = :case_id)
