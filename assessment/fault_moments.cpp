@@ -55,14 +55,14 @@ Times pain(const Signals& signals) {
 
 struct Row {
   std::string_view metric;
-  std::uint32_t needs;  // Need, or-ed
+  Needs needs;  // Need, or-ed
   Times (*times)(const Signals&);
   const char* words;
 };
 constexpr const char *kFired = "the trigger fell", *kIn = "the needle went through the skin",
                      *kInside = "the tip came into a structure to stay out of",
                      *kUnseen = "the longest advance with the tip out of the picture began";
-constexpr std::uint32_t kPuncture = kSkin | kMotion, kSeenPlane = kPicturePlane | kSkin | kPictures | kMotion;
+constexpr Needs kPuncture = kSkin | kMotion, kSeenPlane = kPicturePlane | kSkin | kPictures | kMotion;
 constexpr Row kRows[] = {
     {"hit", kEndpoint, &fired, kFired},
     {"first_pass_success", kEndpoint, &fired, kFired},
@@ -105,7 +105,7 @@ constexpr Row kRows[] = {
 }  // namespace
 
 std::vector<FaultMoment> fault_moments(const Signals& signals) {
-  const std::uint32_t unmet = unmet_needs(signals);
+  const Needs unmet = unmet_needs(signals);
   std::vector<FaultMoment> faults;
   for (const Row& row : kRows) {
     if ((row.needs & unmet) != 0) continue;

@@ -129,7 +129,7 @@ int version_of(const MetricInfo& info, cases::SightLaw law) noexcept {
 }
 
 std::vector<MetricValue> measure_all(const Signals& signals) {
-  const std::uint32_t unmet = unmet_needs(signals);
+  const Needs unmet = unmet_needs(signals);
   const auto measure = [&](const MetricInfo& info) {
     for (const NeedInfo& need : needs())
       if ((info.needs & unmet & need.need) != 0) return Measured::none(need.reason);

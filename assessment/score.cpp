@@ -5,7 +5,6 @@
 #include "assessment/registry.h"
 #include "assessment/signals/target_view.h"
 #include "sim/case/patient_position.h"
-#include "sim/imaging/ultrasound/view/probe.h"
 
 namespace seldinger::assessment {
 
@@ -17,8 +16,7 @@ base::Result<Signals> signals_of(const cases::Case& scene, const cases::Recordin
   setting.modality = scene.picture.modality;
   setting.approach = scene.approach;
   if (scene.probe_is_chosen && setting.modality == cases::Modality::ultrasound)
-    if (const imaging::Probe* probe = imaging::probe_named(scene.picture.probe))
-      setting.probe_suits = DepthRange{probe->suits_from_mm, probe->suits_to_mm};
+    setting.probe_suits = cases::depths_that_suit(scene.picture.probe);
   setting.structures = scene.structures;
   if (scene.planned_entry_lps_mm && setting.target) {
     const glm::dvec3 way = setting.target->center_lps_mm - *scene.planned_entry_lps_mm;

@@ -715,8 +715,7 @@ CREATE TABLE training_case (
   CHECK (sight_law IN ('half_slice', 'echo', 'scatter')), breath_law TEXT NOT NULL DEFAULT 'equal_holds'
   CHECK (breath_law IN ('equal_holds', 'drifting_holds')), ct_breath TEXT NOT NULL DEFAULT 'expiration'
   CHECK (ct_breath IN ('expiration', 'inspiration')), breath_depth REAL NOT NULL DEFAULT 0.0
-  CHECK (breath_depth BETWEEN 0 AND 3), probe_is_chosen INTEGER NOT NULL DEFAULT 0 CHECK (probe_is_chosen IN (0, 1)), 
-  CHECK (breath_depth BETWEEN 0 AND 3), instrument_tip TEXT NOT NULL DEFAULT 'bevel'
+  CHECK (breath_depth BETWEEN 0 AND 3), probe_is_chosen INTEGER NOT NULL DEFAULT 0 CHECK (probe_is_chosen IN (0, 1)), instrument_tip TEXT NOT NULL DEFAULT 'bevel'
   CHECK (instrument_tip IN ('bevel', 'diamond', 'trocar', 'core')), touch_law TEXT NOT NULL DEFAULT 'steady'
   CHECK (touch_law IN ('steady', 'by_speed'))) STRICT;
 

@@ -58,8 +58,8 @@ int run_case_explain(const Arguments& arguments) {
                   : ": pictures leave out what the patient scatters");
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
   if (row->modality == cases::Modality::ultrasound)
-    std::printf("colour Doppler   flow in %s; not known in %s\n", listed(needs.flowing).c_str(),
-                listed(needs.unknown_flow).c_str());
+    std::printf("colour Doppler   flow in %s%s\n", listed(needs.flowing).c_str(),
+                needs.unknown_flow.empty() ? "" : ("; not known in " + listed(needs.unknown_flow)).c_str());
   if (needs.displacement_bytes == 0) {
     std::puts("moving tissue    none: no source, nothing is asked");
     return kDone;

@@ -78,6 +78,7 @@ DemoCase torso_liver() {
   made.setting.further_modalities = {cases::Modality::mpr};
   made.setting.probe_is_chosen = true;
   made.setting.instrument = core_needle();
+  made.setting.touch.tip = cases::NeedleTip::core;
   made.setting.difficulty = casedb::Difficulty::easy;
   made.setting.clinic = {1.0, 220.0, "", "lesion of the liver, to be told by biopsy", false};
   made.setting.rule = rule_of({"core_in_target >= 10", "capsule_punctures <= 1", "skin_punctures <= 1",

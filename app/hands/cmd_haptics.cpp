@@ -110,8 +110,10 @@ int run_haptics_needles(const Arguments& arguments) {
       if (samples[i].force.ruptured && opened_n == 0.0) opened_n = samples[i - 1].force.axial_n;
       if (i % each == 0) curve.points.push_back({samples[i].depth_mm, samples[i].force.axial_n});
     }
-    std::printf("%-8s opens at %.2f N, %.2f N at %.0f mm: %s\n", curve.name.c_str(), opened_n,
-                samples.back().force.axial_n, kDrawnDepthMm, tip.provenance);
+    char opens[32] = "no capsule";
+    if (opened_n > 0.0) std::snprintf(opens, sizeof opens, "opens at %.2f N", opened_n);
+    std::printf("%-8s %s, %.2f N at %.0f mm: %s\n", curve.name.c_str(), opens, samples.back().force.axial_n,
+                kDrawnDepthMm, tip.provenance);
     chart.curves.push_back(std::move(curve));
   }
   char title[96];
@@ -188,8 +190,9 @@ constexpr Option kInsertOptions[] = {
     {"--gauge", "G", "16 to 25; default 22"},
     {"--relaxation", nullptr, "held tissue relaxes"},
     {"--touch", base::kAlternatives<cases::kTouchLawNames>,
-     "the law; default steady: the same at any speed. By speed, capsules open at less the faster, and held tissue "
-     "relaxes"},
+     "the law of touch; default steady, the same at any speed. by_speed: the faster the needle, the less force "
+     "opens a "
+     "capsule, and tissue that is held relaxes"},
     {"--tip", base::kAlternatives<cases::kNeedleTipNames>, "its form, which counts by speed; default bevel"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
 

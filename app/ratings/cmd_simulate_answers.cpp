@@ -14,6 +14,9 @@ int run_simulate_answers(const Arguments& arguments) {
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  // Who fills a round writes in it: reading its answers is not enough, nor is opening others.
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_questionnaires); !by)
+    return refuse(by.error());
   const auto round = round_to_read(*library, arguments);
   if (!round) return refuse(round.error());
   const auto made = casedb::simulate_answers(*library, round->code, seed);

@@ -166,7 +166,10 @@ std::vector<Candidate> candidates_of(const Grade& grade, const Gradable& attempt
   }
   for (const std::string_view id : kFacts) {
     const MetricInfo* info = find_metric(std::string(id));
-    const MetricValue* found = find_version(attempt.metrics, id, info->version);
+    // Nothing is compared: the newest that is stored, which at a case of an older law of sight is an older one.
+    const MetricValue* found = nullptr;
+    for (const MetricValue& one : attempt.metrics)
+      if (one.id == id && (found == nullptr || one.version > found->version)) found = &one;
     if (found == nullptr || !found->value || !std::isfinite(*found->value)) continue;
     const Phrase& phrase = *find_phrase(id);
     Candidate made{{SentenceKind::fact, "", std::string(id)}, phrase.topic};

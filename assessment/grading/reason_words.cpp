@@ -42,6 +42,7 @@ constexpr ReasonWords kReasons[] = {
     {"events_not_recorded", "the recording does not say what was said and done"},
     {"only_gaps", "tracking was lost throughout"},
     {"never_in_tissue", "the tip was never in tissue"},
+    {"probe_given", "the case gave the probe"},
     {"no_such_event", "nothing went wrong that had to be answered"},
     // What was done, or left undone (the metrics' own).
     {"needle_guide_was_on", "the needle was in the probe’s guide, which holds it in the picture’s plane"},
@@ -49,7 +50,6 @@ constexpr ReasonWords kReasons[] = {
     {"nothing_done", "nothing was done that could be judged"},
     {"no_movement", "the tip did not move"},
     {"never_punctured", "the skin was never punctured"},
-    {"probe_given", "the case gave the probe"},
     {"nothing_decided", "nothing was decided: neither said nor punctured"},
     {"no_step_asked_for", "the case asks for none of the graded steps"},
     {"breath_never_held", "the breath was never held"},

@@ -87,13 +87,12 @@ std::optional<Criterion> criterion_from(std::string_view text) {
   return std::nullopt;
 }
 
-std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry,
-                           cases::Subject subject) {
+Needs absent_needs(std::span<const cases::Structure> structures, bool planned_entry, cases::Subject subject) {
   using enum cases::StructureRule;
-  std::uint32_t absent = planned_entry ? 0U : std::uint32_t{kPlan};
-  const std::pair<cases::StructureRule, std::uint32_t> needs[] = {
-      {critical, kNoGoCritical}, {major, kNoGoMajor}, {advisory, kNoGoAdvisory},
-      {must_cross, kMustCross},  {organ, kOrgan},     {target, kLumen}};
+  Needs absent = planned_entry ? 0U : Needs{kPlan};
+  const std::pair<cases::StructureRule, Needs> needs[] = {{critical, kNoGoCritical}, {major, kNoGoMajor},
+                                                          {advisory, kNoGoAdvisory}, {must_cross, kMustCross},
+                                                          {organ, kOrgan},           {target, kLumen}};
   for (const auto& [rule, need] : needs)
     if (!has_rule(structures, rule)) absent |= need;
   if (!has_rule(structures, critical) && !has_rule(structures, major) && !has_rule(structures, advisory))

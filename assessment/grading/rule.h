@@ -40,13 +40,13 @@ std::optional<Criterion> criterion_from(std::string_view text);
 // What a case is practised with, and what it does not have of what metrics need.
 struct Guidance {
   Manner manner;
-  std::uint32_t absent = 0;          // Need, or-ed: no critical structure, no planned entry, …
+  Needs absent = 0;                  // Need, or-ed: no critical structure, no planned entry, …
   std::optional<double> notch_mm{};  // of a core needle: no core is longer
   bool defer_is_right = false;
   cases::SightLaw sight_law = cases::kNewestSightLaw;
 };
-std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry,
-                           cases::Subject subject = cases::Subject::patient);
+Needs absent_needs(std::span<const cases::Structure> structures, bool planned_entry,
+                   cases::Subject subject = cases::Subject::patient);
 
 // What a rule may name there: the ids of the metrics that can have a value.
 std::vector<std::string> meaningful_metrics(const Guidance& guidance);

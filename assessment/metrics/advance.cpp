@@ -155,7 +155,7 @@ Measured advance_beyond_plane(const Signals& signals) {
   return beyond.no_plane ? Measured::none("no_picture_plane") : Measured::of(beyond.advance_mm);
 }
 
-constexpr std::uint32_t kUnderProbe = kPicturePlane | kSkin | kPictures;
+constexpr Needs kUnderProbe = kPicturePlane | kSkin | kPictures;
 // Under a needle guide the angle to the plane is the guide's, and the guide holds the probe: kFreehand. What a
 // picture showed of the advance stays the trainee's, who may still look away, freeze it or leave the field, and
 // would else be spared a blind advance by taking up the guide.

@@ -75,7 +75,7 @@ Measured breath_holds_failed(const Signals& signals) {
       std::count_if(holds.begin(), holds.end(), [](const BreathHold& hold) { return hold.lost; })));
 }
 
-constexpr std::uint32_t kHeld = kEvents | kBreathes;
+constexpr Needs kHeld = kEvents | kBreathes;
 constexpr const char* kInTheRoom =
     "1: told by the room alone, so that a needle that went along with the tissue was pushed on.";
 constexpr const char* kSource = "thesis, appendix A, steps 11 and 12; docs/clinical.md: check in breath-hold";

@@ -123,7 +123,7 @@ constexpr const char* kSpent =
 constexpr const char* kTechnique =
     "ICRP Publication 117, Ann. ICRP 40 (6), 2010: radiological protection in fluoroscopically guided procedures";
 constexpr const char* kBullsEye = "bull's-eye puncture with depth view; Miller et al., J. Urol. 178 (2007)";
-constexpr std::uint32_t kUnderBeam = kXray | kBeam;
+constexpr Needs kUnderBeam = kXray | kBeam;
 
 constexpr MetricInfo kFluoroscopyMetrics[] = {
     {"fluoroscopy_time", 1, "s", "Fluoroscopy time", Group::dose, Direction::lower_is_better, kUnderBeam,

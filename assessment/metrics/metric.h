@@ -77,7 +77,7 @@ struct MetricInfo {
   const char* label;  // for pages, at most four words
   Group group;
   Direction direction;
-  std::uint32_t needs;     // Need, or-ed: without one it is null, for that need's reason
+  Needs needs;             // Need, or-ed: without one it is null, for that need's reason
   const char* definition;  // a few sentences, with the edge rules and every further reason for null
   const char* source;
   Measured (*measure)(const Signals&);  // only called when its needs are met

@@ -137,30 +137,28 @@ Measured measured(const Signals& signals) {
   return probe.no_plane ? Measured::none("no_picture_plane") : Measured::of(probe.*part);
 }
 
-// How deep below the middle of the probe's face the target lay when the skin was punctured for the first time.
+// How deep below the probe's face, along its axis, the target lay when the skin was punctured for the first time.
+// Where breath has the target just then is not known: it lies as in the CT.
 Measured probe_suits(const Signals& signals) {
-  if (!signals.setting.probe_suits) return Measured::none("probe_given");
   const PunctureCounts counts = count_punctures(signals);
   if (counts.punctures == 0) return Measured::none("never_punctured");
   const cases::PoseSample& pose = signals.poses[counts.first_pose];
-  const glm::dvec3 displaced_mm = pose.tip_lps_mm - pose.tip_at_rest_lps_mm();
   const double depth_mm =
-      glm::distance(signals.setting.target->center_lps_mm + displaced_mm, pose.probe_origin_lps_mm);
+      glm::dot(signals.setting.target->center_lps_mm - pose.probe_origin_lps_mm, pose.probe_axial);
   const auto& [from_mm, to_mm] = *signals.setting.probe_suits;
   return Measured::of(depth_mm >= from_mm && depth_mm <= to_mm ? 1.0 : 0.0);
 }
 
-constexpr std::uint32_t kOfProbe = kPicturePlane | kSkin | kPictures | kInPlane | kMotion | kTissue | kFreehand;
+constexpr Needs kOfProbe = kPicturePlane | kSkin | kPictures | kInPlane | kMotion | kTissue | kFreehand;
 constexpr std::uint32_t kProbeLaws =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 
 constexpr MetricInfo kProbeMetrics[] = {
     {"probe_suits", 1, "bool", "Probe that suits", Group::picture, Direction::higher_is_better,
-     kUltrasound | kTarget | kSkin | kMotion,
-     "1 where the probe that was chosen suits a target so deep, else 0: when the skin was first punctured the "
-     "target's "
-     "middle lay at most 50 mm from the middle of a linear probe's face, at least 25 mm from a curved one's. Null: "
-     "probe_given (the case chose it), never_punctured.",
+     kUltrasound | kTarget | kSkin | kMotion | kProbeChosen,
+     "1 where the probe that was chosen suits a target so deep, else 0: when the skin was first punctured, the "
+     "target's middle lay at most 50 mm below a linear probe's face, at least 25 mm below a curved one's, along "
+     "its axis. Null: never_punctured.",
      "teaching texts take a linear probe down to about 5 cm; our judgement nearer", &probe_suits, kProportion,
      kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kNothingIsNothing},
     {"probe_drift_advancing", 2, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better,

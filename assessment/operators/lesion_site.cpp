@@ -83,8 +83,9 @@ std::string describe(const LesionRule& rule) {
   text << "a sphere of " << 2 * rule.radius_mm << " mm diameter, " << rule.min_depth_mm << "–" << rule.max_depth_mm
        << " mm below the skin, where soft tissue (mean " << rule.min_mean_hu << "–" << rule.max_mean_hu
        << " HU) is most homogeneous within " << rule.homogeneous_radius_mm
-       << " mm (of a CT without labels within a solid organ that it names, if any, and not beside the lungs), on a "
-          "straight path free of bone and gas"
+       << " mm (in a CT without labels within a solid organ that was recognised, where there is one, and never "
+          "lateral "
+          "to the lungs), on a straight path free of bone and gas"
        << (rule.modality == cases::Modality::xray         ? ", filled with contrast agent"
            : rule.modality == cases::Modality::ultrasound ? ", filled with fluid, seen by a probe beside the path"
                                                           : "");

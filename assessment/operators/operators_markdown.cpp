@@ -32,7 +32,7 @@ would have shown there; hollow: each metric of theirs at Drill 2, experts and no
 ### Beside what was published
 
 Of 26 published figures 19 have a counterpart here; the command says of each whether it lies within .15 of the published value or
-in its 95 % interval. All eleven that the people were fitted to do; of eight that were kept out three do:
+in its 95 % interval. All eleven figures used for the fit lie within; of the eight kept out, three do:
 
 | kept out of the fit | published | simulated | within |
 |---|---|---|---|
@@ -47,12 +47,12 @@ in its 95 % interval. All eleven that the people were fitted to do; of eight tha
 
 Why the five do not, by the means that the command tells, and by 500 novices' and 500 experts' whole attempts:
 
-- Level of realism: table 6.3 of the same thesis, which people answer by, says 1.79 where table 6.2 says -0.31. No people do both.
+- Level of realism: table 6.3 of the same thesis, which people answer by, says 1.79 where table 6.2 says -0.31. No one group can show both.
 - What is swept: practice of twenty attempts brings novices 0.68 of the 1.2 standard deviations that experts are ahead; even
   experts sweep 0.74 of novices' area, so no practice here comes to 0.31.
 - Inefficiency: who draws the needle back goes some three times as far in tissue (inefficiency of novices 250 % with, 30 % without), and experts
   do so as often as novices (56 and 59 times in a hundred attempts): who sees more misses corrects more. Experts' is 0.91 of novices'.
-- The needle's path: experts' is 0.92 of novices'. Of 675 mm most lies outside the body; the published 58 mm cannot.
+- The needle's path: experts' is 0.92 of novices'. Of 675 mm most lies outside the body; which cannot be so of the published 58 mm.
 - First pass: a partial withdrawal rules it out here, and four in ten have one. Hit with one puncture, whatever is drawn back,
   novices do in 52 % and experts in 82 % of 500 attempts; the published 81 % are of another simulator.
 

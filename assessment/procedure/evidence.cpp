@@ -245,7 +245,7 @@ When hand_in_beam(const Signals& signals) {
       signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.beam && frame.beam->hand_in_beam; });
 }
 
-constexpr std::uint32_t kSaid = kEvents, kSeen = kPictures;
+constexpr Needs kSaid = kEvents, kSeen = kPictures;
 
 constexpr EvidenceInfo kEvidence[] = {
     {Evidence::none, "never", 0, [](const Signals&) { return When(); }},
@@ -349,7 +349,7 @@ const EvidenceInfo& about(Evidence evidence) {
   return info;
 }
 
-std::optional<double> first_s(Evidence evidence, const Signals& signals, std::uint32_t unmet) {
+std::optional<double> first_s(Evidence evidence, const Signals& signals, Needs unmet) {
   const EvidenceInfo& info = about(evidence);
   return (info.needs & unmet) == 0 ? info.first_s(signals) : std::nullopt;
 }

@@ -72,15 +72,15 @@ constexpr bool is_said(Evidence evidence) noexcept {
 
 struct EvidenceInfo {
   Evidence evidence;
-  const char* words;    // how it is told from the recording
-  std::uint32_t needs;  // Need, or-ed: without one nothing can be said
+  const char* words;  // how it is told from the recording
+  Needs needs;        // Need, or-ed: without one nothing can be said
   std::optional<double> (*first_s)(const Signals&);
 };
 
 std::span<const EvidenceInfo> evidence();
 
 // When it was seen first; never, or cannot be said: nothing. `unmet` as unmet_needs() says.
-std::optional<double> first_s(Evidence evidence, const Signals& signals, std::uint32_t unmet);
+std::optional<double> first_s(Evidence evidence, const Signals& signals, Needs unmet);
 const EvidenceInfo& about(Evidence evidence);
 
 }  // namespace seldinger::assessment

@@ -30,7 +30,7 @@ Measured decision_right(const Signals& signals) {
 }
 
 StepCounts counted(const Signals& signals) {
-  const std::uint32_t unmet = unmet_needs(signals);
+  const Needs unmet = unmet_needs(signals);
   return count_steps(walk_steps(signals, unmet), unmet);
 }
 

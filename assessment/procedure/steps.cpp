@@ -100,10 +100,10 @@ constexpr auto kStates = base::names<StepState>({{StepState::done, "done"},
 
 constexpr auto kHows = base::names<StepHow>({{StepHow::shown, "shown"}, {StepHow::said, "said"}});
 
-StepResult walk(const StepInfo& step, const Signals& signals, std::uint32_t unmet, bool stopped_by_defer) {
+StepResult walk(const StepInfo& step, const Signals& signals, Needs unmet, bool stopped_by_defer) {
   StepResult result;
   result.id = step.id;
-  const std::uint32_t needs = step.needs | about(step.completes).needs;
+  const Needs needs = step.needs | about(step.completes).needs;
   for (const NeedInfo& need : assessment::needs())
     if ((needs & unmet & need.need) != 0) {
       result.reason = need.reason;
@@ -158,7 +158,7 @@ std::optional<StepHow> step_how_from(std::string_view name) noexcept {
   return base::from_name(kHows, name);
 }
 
-std::vector<StepResult> walk_steps(const Signals& signals, std::uint32_t unmet) {
+std::vector<StepResult> walk_steps(const Signals& signals, Needs unmet) {
   const bool stopped_by_defer = first_s(deferred, signals, unmet) && !first_s(punctured, signals, unmet);
   std::vector<StepResult> results;
   for (const StepInfo& step : kSteps) results.push_back(walk(step, signals, unmet, stopped_by_defer));
@@ -169,7 +169,7 @@ std::vector<StepResult> walk_steps(const Signals& signals) {
   return walk_steps(signals, unmet_needs(signals));
 }
 
-StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet) {
+StepCounts count_steps(std::span<const StepResult> results, Needs unmet) {
   StepCounts counts;
   for (const StepResult& result : results) {
     const StepInfo* step = find_step(result.id);

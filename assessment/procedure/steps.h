@@ -20,13 +20,13 @@ constexpr int kStepsVersion = 4;
 
 struct StepInfo {
   const char* id;
-  const char* words;    // as a checklist says it
-  std::uint32_t needs;  // Need, or-ed: of the manner and the case; without one the step is not asked for
+  const char* words;  // as a checklist says it
+  Needs needs;        // Need, or-ed: of the manner and the case; without one the step is not asked for
   Evidence completes;
   Evidence by;        // done later than this it is skipped; none: any time will do
   Evidence violates;  // none: it cannot be violated
   // Counts in steps_done and steps_violated where these Needs, or-ed, are met; 0: everywhere.
-  std::uint32_t graded_with;
+  Needs graded_with;
   const char* source;
   Evidence said = Evidence::none;        // of a step that a deed shows: what is said about it, told and not counted
   Evidence asked_when = Evidence::none;  // it was there, else the step is not asked for; none: always
@@ -59,7 +59,7 @@ std::string_view name_of(StepHow how) noexcept;
 std::optional<StepHow> step_how_from(std::string_view name) noexcept;
 
 // Every step, in order; `unmet` as unmet_needs() says.
-std::vector<StepResult> walk_steps(const Signals& signals, std::uint32_t unmet);
+std::vector<StepResult> walk_steps(const Signals& signals, Needs unmet);
 std::vector<StepResult> walk_steps(const Signals& signals);
 
 // Of those that are graded and were asked for.
@@ -68,7 +68,7 @@ struct StepCounts {
   int shown = 0, to_be_shown = 0;  // of those that a deed can show: done, and asked for
   int asked() const noexcept { return done + skipped + violated; }
 };
-StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet);
+StepCounts count_steps(std::span<const StepResult> results, Needs unmet);
 
 // docs/steps.md, from the tables.
 std::string steps_markdown();

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <string>
 
+#include "assessment/signals/needs.h"
+
 namespace seldinger::assessment {
 
 // "ultrasound, skin": of Needs, or-ed, in their order; empty for none.
-std::string words_of_needs(std::uint32_t needs);
+std::string words_of_needs(Needs needs);
 
 }  // namespace seldinger::assessment

@@ -18,9 +18,9 @@ bool has(const Signals& signals, StructureRule rule) {
 }
 
 // Those of the manner; needs() asks the same of an attempt.
-std::uint32_t unmet(const Manner& manner) {
+Needs unmet(const Manner& manner) {
   const bool xray = manner.modality == cases::Modality::xray;
-  std::uint32_t bits = 0;
+  Needs bits = 0;
   if (!xray) bits |= kXray;
   if (manner.modality != cases::Modality::ultrasound) bits |= kUltrasound;
   if (xray) bits |= kPicturePlane;
@@ -30,7 +30,7 @@ std::uint32_t unmet(const Manner& manner) {
   return bits;
 }
 
-template <std::uint32_t need>
+template <Needs need>
 bool of_manner(const Signals& signals) {
   return (unmet(manner_of(signals.setting)) & need) == 0;
 }
@@ -134,6 +134,8 @@ constexpr NeedInfo kNeeds[] = {
     {kEvents, "what was said", "events_not_recorded", [](const Signals& s) { return s.events.has_value(); }},
     {kCalipers, "what calipers measured", "calipers_not_recorded", &calipers_recorded},
     {kTrouble, "a mentor's event", "no_such_event", &trouble_made},
+    {kProbeChosen, "a probe that was chosen", "probe_given",
+     [](const Signals& s) { return s.setting.probe_suits.has_value(); }},
     {kDecision, "the right decision", "no_right_decision",
      [](const Signals& s) { return s.setting.defer_is_right.has_value(); }},
 };
@@ -144,21 +146,21 @@ std::span<const NeedInfo> needs() {
   return kNeeds;
 }
 
-std::uint32_t unmet_needs(const Signals& signals) {
-  std::uint32_t bits = 0;
+Needs unmet_needs(const Signals& signals) {
+  Needs bits = 0;
   for (const NeedInfo& info : kNeeds)
     if (!info.met(signals)) bits |= info.need;
   return bits;
 }
 
-bool applies(std::uint32_t needs, const Manner& manner) {
+bool applies(Needs needs, const Manner& manner) {
   return (needs & unmet(manner)) == 0;
 }
 
 bool absent_from_case(std::string_view reason) {
-  constexpr std::uint32_t of_case = kTarget | kPlan | kNoGo | kNoGoCritical | kNoGoMajor | kNoGoAdvisory |
-                                    kMustCross | kOrgan | kLumen | kSkin | kForces | kArmLed | kDecision |
-                                    kBreathes | kYields | kPatient;
+  constexpr Needs of_case = kTarget | kPlan | kNoGo | kNoGoCritical | kNoGoMajor | kNoGoAdvisory | kMustCross |
+                            kOrgan | kLumen | kSkin | kForces | kArmLed | kDecision | kBreathes | kYields |
+                            kPatient | kProbeChosen;
   return std::any_of(std::begin(kNeeds), std::end(kNeeds),
                      [&](const NeedInfo& info) { return (info.need & of_case) != 0 && reason == info.reason; });
 }

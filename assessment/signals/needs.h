@@ -18,7 +18,9 @@ struct Manner {
   cases::InstrumentKind instrument = cases::InstrumentKind::access;
 };
 
-enum Need : std::uint32_t {
+using Needs = std::uint64_t;  // Need, or-ed
+
+enum Need : Needs {
   // Of the manner.
   kXray = 1U << 0U,
   kUltrasound = 1U << 1U,
@@ -57,10 +59,12 @@ enum Need : std::uint32_t {
   kArmLed = 1U << 30U,
   // Of the recording.
   kCalipers = 1U << 31U,
+  // Of the case.
+  kProbeChosen = Needs{1} << 32U,
 };
 
 struct NeedInfo {
-  std::uint32_t need;
+  Needs need;
   const char* words;   // "a core needle"
   const char* reason;  // stable snake_case, of the null where it is not met
   bool (*met)(const Signals&);
@@ -70,11 +74,11 @@ struct NeedInfo {
 std::span<const NeedInfo> needs();
 
 // Those of all needs that an attempt does not meet, or-ed.
-std::uint32_t unmet_needs(const Signals& signals);
+Needs unmet_needs(const Signals& signals);
 
 // Whether something with these needs could have a value when practising in this manner. What could not is not
 // shown to people.
-bool applies(std::uint32_t needs, const Manner& manner);
+bool applies(Needs needs, const Manner& manner);
 
 // Whether a null with this reason says what the case or the desk does not have, whatever was done.
 bool absent_from_case(std::string_view reason);

@@ -14,6 +14,7 @@
 #include "assessment/signals/way.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
+#include "sim/case/probe_depths.h"
 #include "sim/case/record/recording.h"
 #include "sim/case/skin_passage.h"
 #include "sim/case/structure.h"
@@ -29,11 +30,6 @@ struct PlannedEntry {
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, into the body
 };
 
-// Of a target's middle below the probe's face, mm.
-struct DepthRange {
-  double from_mm = 0.0, to_mm = 0.0;
-};
-
 // What is fixed about an attempt. What it points to outlives the signals.
 struct AttemptSetting {
   const cases::MeshIndex* skin = nullptr;
@@ -47,10 +43,10 @@ struct AttemptSetting {
   cases::PatientPosition position = cases::PatientPosition::supine;  // which way a fluoroscope's angles look
   std::optional<bool> defer_is_right{};                              // what the case has to be decided
   cases::SightLaw sight_law = cases::kNewestSightLaw;                // by which the frames were told
-  std::optional<double> table_mm{};         // how high, upwards, what the patient lies on is; nothing: not known
-  bool breathes = false, yields = false;    // what moves the case's tissue
-  std::optional<DepthRange> probe_suits{};  // where whoever attempted it chose the probe
-  bool target_cannot_show = false;          // in no picture of the case (target_view.h)
+  std::optional<double> table_mm{};       // how high, upwards, what the patient lies on is; nothing: not known
+  bool breathes = false, yields = false;  // what moves the case's tissue
+  std::optional<cases::DepthRange> probe_suits{};  // where whoever attempted it chose the probe
+  bool target_cannot_show = false;                 // in no picture of the case (target_view.h)
 };
 
 inline Manner manner_of(const AttemptSetting& setting) {

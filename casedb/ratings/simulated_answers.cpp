@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -47,30 +48,38 @@ std::map<std::string, SimulatedTruth> truths_by_person(Library& library) {
   return truths;
 }
 
-// Which of the person's attempts at its case it is: the one that has its seed.
-std::optional<std::uint64_t> number_of(const population::Person& person, std::uint64_t case_key,
-                                       std::uint64_t seed) {
+// Which of the person's attempts at its case they are, by their seeds; those that are none of them are left out.
+std::map<std::uint64_t, std::uint64_t> numbers_of(const population::Person& person, std::uint64_t case_key,
+                                                  std::set<std::uint64_t> seeds) {
   constexpr std::uint64_t kMostAttempts = 100'000;  // as many as are made in a session
-  for (std::uint64_t number = 0; number < kMostAttempts; ++number)
-    if (population::attempt_seed(person, {case_key, number, 0.0}) == seed) return number;
-  return std::nullopt;
+  std::map<std::uint64_t, std::uint64_t> numbers;
+  for (std::uint64_t number = 0; number < kMostAttempts && !seeds.empty(); ++number) {
+    const std::uint64_t seed = population::attempt_seed(person, {case_key, number, 0.0});
+    if (seeds.erase(seed) > 0) numbers.emplace(seed, number);
+  }
+  return numbers;
 }
 
 // As it was in that attempt, with practice until then. Earlier ones that are not in the library count as made on
 // the day of the next that is. Attempts that were not made as this person's own have none.
 population::Abilities ability_in(Library& library, const population::Person& person, const AttemptRow& attempt) {
   const std::uint64_t case_key = population::case_key_of(attempt.case_title);
-  std::map<std::uint64_t, double> days;  // by number
+  std::map<std::uint64_t, double> started_days;  // by seed
   for (const AttemptRow& one : list_bare_attempts_of(library, *attempt.person_id))
     if (one.case_title == attempt.case_title)
-      if (const auto number = number_of(person, case_key, one.seed))
-        days.emplace(*number, static_cast<double>(one.started_us) / kDayUs);
-  const auto number = number_of(person, case_key, attempt.seed);
-  if (!number) return person.ability;
+      started_days.emplace(one.seed, static_cast<double>(one.started_us) / kDayUs);
+  std::set<std::uint64_t> seeds{attempt.seed};
+  for (const auto& [seed, day] : started_days) seeds.insert(seed);
+  const auto numbers = numbers_of(person, case_key, std::move(seeds));
+  const auto number = numbers.find(attempt.seed);
+  if (number == numbers.end()) return person.ability;
+  std::map<std::uint64_t, double> days;  // by number
+  for (const auto& [seed, day] : started_days)
+    if (const auto found = numbers.find(seed); found != numbers.end()) days.emplace(found->second, day);
   std::vector<double> before;
-  for (std::uint64_t other = 0; other < *number; ++other) before.push_back(days.lower_bound(other)->second);
+  for (std::uint64_t other = 0; other < number->second; ++other) before.push_back(days.lower_bound(other)->second);
   return population::ability_on(
-      person, {case_key, *number, population::gain_of(person.practice, before, days.at(*number))});
+      person, {case_key, number->second, population::gain_of(person.practice, before, days.at(number->second))});
 }
 
 base::Result<SimulatedAnswers> answer(Library& library, const Round& round) {

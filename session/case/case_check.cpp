@@ -165,6 +165,7 @@ CaseCheck check_loaded_case(std::string content_mark, const cases::Case& scene, 
   assessment::Guidance guidance{
       casedb::manner_of(row),
       assessment::absent_needs(scene.structures, row.planned_entry_lps_mm.has_value(), row.subject)};
+  if (!row.probe_is_chosen) guidance.absent |= assessment::kProbeChosen;
   if (row.instrument.kind == cases::InstrumentKind::core) guidance.notch_mm = row.instrument.notch_mm;
   guidance.defer_is_right = row.clinic.defer;
   guidance.sight_law = row.sight_law;

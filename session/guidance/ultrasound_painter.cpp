@@ -71,7 +71,9 @@ void UltrasoundPainter::receive(const engine::Moment& moment) {
     view = make();
   }
   console_.show(state.t_s, pictures_, view, polar_,
-                sight_.colour(probe_in(state), state.probe.console, needle, state.t_s, moment.displacement));
+                console_.frozen()
+                    ? std::nullopt  // it keeps what it has
+                    : sight_.colour(probe_in(state), state.probe.console, needle, state.t_s, moment.displacement));
 }
 
 void UltrasoundPainter::develop(ShownPicture& shown) {

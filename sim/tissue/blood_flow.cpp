@@ -28,12 +28,12 @@ const FlowLaw kFlowLaws[] = {
     {"iliac", LumenContent::arterial_blood, kFeet, 1190.0, 0.0, 0.2},
     {"femoral", LumenContent::arterial_blood, kFeet, 1140.0, 0.0, 0.25},
     {"jugular", LumenContent::venous_blood, kFeet, kJugularMiddle, kJugularMiddle},
-    {"superior", LumenContent::venous_blood, kFeet, kPortalMiddle, kPortalMiddle},
+    {"superior_vena", LumenContent::venous_blood, kFeet, kPortalMiddle, kPortalMiddle},
     {"cava", LumenContent::venous_blood, kHead, kPortalMiddle, kPortalMiddle},
     {"iliac", LumenContent::venous_blood, kHead, kPortalMiddle, kPortalMiddle},
     {"femoral", LumenContent::venous_blood, kHead, kPortalMiddle, kPortalMiddle},
-    {"hepatic", LumenContent::venous_blood, kHead, kPortalMiddle, kPortalMiddle},
     {"portal", LumenContent::venous_blood, kLiver, kPortalMiddle, kPortalMiddle},
+    {"hepatic", LumenContent::venous_blood, kHead, kPortalMiddle, kPortalMiddle},
 };
 
 // Shares of a beat: blood is driven out, then runs back.

@@ -127,7 +127,8 @@ ArmsSaid arms_words(const ArmsHeld& arms) {
                 " too late to push back: no force there",
             true};
   if (const int limit = which(arms.at_limit); limit >= 0)
-    return {std::string(kArms[limit]) + (limit == 2 ? " at their" : " at its") + " limit: tissue resists more",
+    return {std::string(kArms[limit]) + (limit == 2 ? " at their" : " at its") +
+                " limit: the tissue resists more than you feel",
             true};
   return {"left arm: " + tool(0) + " · right arm: " + tool(1) + " · F10: live", false};
 }

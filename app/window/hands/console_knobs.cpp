@@ -35,8 +35,8 @@ std::string colour_words(std::span<const cases::Structure> structures) {
     return words;
   };
   std::string words =
-      "colour Doppler (V): red comes towards the probe, blue goes away, across the beam nothing shows";
-  if (flow.empty()) return words + "\nof no vessel of this case is it known how blood flows";
+      "colour Doppler (V): red flows towards the probe, blue away from it; flow across the beam does not show";
+  if (flow.empty()) return words + "\nof no vessel in this case is the flow known";
   words += list("\nit shows the flow in", flow.names());
   return flow.unknown().empty() ? words : list(words + "\nhow blood flows is not known in", flow.unknown());
 }

@@ -16,6 +16,8 @@ namespace {
 constexpr double kAimMm = 60.0;  // any depth: only its direction counts
 // An arm that has not answered by then, since the attempt began, does not lead from the beginning.
 constexpr double kArmAnswersS = 0.5;
+constexpr double kShareBeforeOrgan =
+    0.85;  // of the time in which a case is prepared; then its target's organ is found
 
 }  // namespace
 
@@ -114,9 +116,6 @@ base::Result<session::LiveAttempt> PersonAttempt::live(casedb::Library& library)
                                 task_->scene, wanted_.keep);
   auto interrupted = session::InterruptedAttempt::take(library, *resumed_);
   if (!interrupted) return interrupted.error();
-  const std::string& probe = interrupted->attempt().picture.probe;
-  const auto offered = session::probes_to_choose(*task_);
-  if (std::find(offered.begin(), offered.end(), probe) != offered.end()) session::choose_probe(*task_, probe);
   if (!session::was_made_at(interrupted->attempt(), *task_))
     return base::Error{"other_case", "the interrupted attempt was made at another task than this"};
   if (const auto replayed = interrupted->replay(task_->scene); !replayed) return replayed.error();
@@ -258,14 +257,18 @@ void PersonAttempt::run() {
     auto library = casedb::Library::open(wanted_.library);
     if (!library) return refuse(library.error());
     task_ = wanted_.task;
-    if (task_) prepared_ = 1.0;
     if (!task_) {
       auto task = session::prepare_task(*library, wanted_.case_id, "", std::nullopt, wanted_.modality,
-                                        [this](double share) { prepared_ = share; });
+                                        [this](double share) { prepared_ = kShareBeforeOrgan * share; });
       if (!task) return refuse(task.error());
+      {
+        const std::lock_guard lock(mutex_);
+        if (gone_) return;
+      }
       task->organ = session::organ_of_target(*library, task->row, task->lesion.lesion.center_lps_mm);
       task_ = std::make_shared<session::Task>(std::move(*task));
     }
+    prepared_ = 1.0;
     phase_.store(Phase::ready, std::memory_order_release);
     {
       std::unique_lock lock(mutex_);

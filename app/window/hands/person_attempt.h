@@ -77,7 +77,7 @@ class PersonAttempt {
 
   Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
   double prepared() const noexcept { return prepared_; }  // 0 to 1
-  std::shared_ptr<session::Task> task() const;   // from `ready` on (CHECKed); nobody changes it from then on
+  std::shared_ptr<session::Task> task() const;   // from `ready` on (CHECKed); after `ready` nobody changes it
   const base::Error& error() const;              // `refused` only (CHECKed)
   const session::StoredAttempt& stored() const;  // `stored` only (CHECKed), or over where it is not kept
 

@@ -161,7 +161,7 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   if (row.modality == cases::Modality::xray && row.sight_law == cases::SightLaw::scatter)
     fact("Field", "scatter from the patient veils the picture; narrowing the collimator makes it clearer");
   fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
-  fact("Its tip", std::string(base::name_of(casedb::kTipWords, row.touch.tip)));
+  fact("Needle tip", std::string(base::name_of(casedb::kTipWords, row.touch.tip)));
   const bool phantom = row.subject == cases::Subject::phantom;
   if (phantom)
     fact("On the table", "a block of gel, no patient: no sign-in, no anaesthetic, no held breath");

@@ -167,7 +167,7 @@ void MonitorPanel::draw_colour_knobs(float wide) {
   tip(colour_words_.c_str());
   ImGui::SameLine();
   if (!colour) return;
-  double scale_cm_s = 0.1 * knobs_.asked().colour_mm_s;
+  double scale_cm_s = 0.1 * imaging::colour_scale_mm_s(knobs_.view(), knobs_.asked().colour_mm_s);
   if (knob("##scale", scale_cm_s, 0.1 * imaging::kLeastColourMmS, 0.1 * imaging::most_colour_mm_s(knobs_.view()),
            "± %.0f cm/s", 0.19F * wide))
     knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));

@@ -49,11 +49,10 @@ bool PlanningRoom::prepare(const std::shared_ptr<const session::Task>& task) {
   if (of_.lock() != task) {
     end();
     of_ = task;
-    making_ = std::async(std::launch::async, [task] {
-      imaging::RoomWish wish;
-      wish.mentor = true;
-      return imaging::make_room_model(task->scene, wish);
-    });
+    imaging::RoomWish wish;
+    wish.mentor = true;
+    wish.picture = task->scene.picture;
+    making_ = std::async(std::launch::async, [task, wish] { return imaging::make_room_model(task->scene, wish); });
   }
   if (making_.valid() && making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     room_ = std::make_unique<Room>(context_, making_.get());

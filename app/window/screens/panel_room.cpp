@@ -93,11 +93,11 @@ void RoomPanel::look_inside(std::shared_ptr<const cases::Case> scene) {
   constexpr std::array kNext = {RoomInside::cut_away, RoomInside::looked_through, RoomInside::whole};
   inside_ = kNext[static_cast<std::size_t>(inside_)];
   if (has_inside_ || making_.valid()) return;
-  making_ = std::async(std::launch::async, [scene = std::move(scene)] {
-    imaging::RoomWish wish;
-    wish.mentor = true;
-    return imaging::make_room_model(*scene, wish);
-  });
+  imaging::RoomWish wish;
+  wish.mentor = true;
+  wish.picture = scene->picture;
+  making_ = std::async(std::launch::async,
+                       [scene = std::move(scene), wish] { return imaging::make_room_model(*scene, wish); });
 }
 
 void RoomPanel::take_made() {

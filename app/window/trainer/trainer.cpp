@@ -402,6 +402,7 @@ bool Trainer::resume(bool left_handed) {
   restarting_ = false;
   resuming_ = true;
   tell_conditions();
+  choose_probe(interrupted_->picture.probe);  // where one is chosen, it goes on with that
   attempt_->resume(interrupted_->attempt_id, left_handed);
   interrupted_.reset();
   return true;

@@ -4,7 +4,7 @@
 // is reached (Dahl's model of order 0). Nothing depends on speed but a damper on how fast these springs load, so a
 // force is the same at any speed and stays at rest; where it is asked for, what is held relaxes, and a capsule
 // opens at less the faster it is pushed (docs/decisions/0088). Out of the track, only friction pulls back; into it
-// again, nothing is cut that was cut. Only + − × ÷: the same bits everywhere.
+// again, nothing is cut that was cut. Only + − × ÷, roots and exact_log: the same bits everywhere.
 #pragma once
 
 #include <cstddef>

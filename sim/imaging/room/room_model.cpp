@@ -154,11 +154,12 @@ double operator_side(const RoomFrame& frame, const cases::Case& scene) noexcept 
 
 RoomModel make_room_model(const cases::Case& scene, const RoomWish& wish) {
   RoomModel room;
+  const cases::Picture& picture = wish.picture ? *wish.picture : scene.picture;
   room.frame = room_frame_of(scene);
   // From the head, so that shadows fall beside the tools and not behind them; lower where a detector hangs over the
   // patient, so that its shadow falls beside them too.
   const double side = operator_side(room.frame, scene);
-  const double low = scene.picture.modality == cases::Modality::xray ? 1.75 : 1.0;
+  const double low = picture.modality == cases::Modality::xray ? 1.75 : 1.0;
   room.key_light = glm::normalize(room.frame.up + low * (0.45 * room.frame.head + 0.25 * side * room.frame.across));
   const auto add = [&](RoomMesh mesh) {
     if (mesh.triangles.empty()) return kNoMesh;
@@ -177,10 +178,10 @@ RoomModel make_room_model(const cases::Case& scene, const RoomWish& wish) {
   room.throw_mm = needle.kind == cases::InstrumentKind::core ? needle.throw_mm : 0.0;
   room.shaft = add(shaft_form(needle));
   room.hub = add(hub_form(needle));
-  if (scene.picture.modality != cases::Modality::xray) {
-    const Probe* probe = probe_named(scene.picture.probe);
+  if (picture.modality != cases::Modality::xray) {
+    const Probe* probe = probe_named(picture.probe);
     room.probe = add(probe_form(probe != nullptr ? *probe : kC52v));
-    room.scan_plane = add(scan_plane_of(scene.picture));
+    room.scan_plane = add(scan_plane_of(picture));
   } else {
     room.c_arm_tube = add(c_arm_tube_form(scene.fluoroscope));
     room.c_arm_detector = add(c_arm_detector_form(scene.fluoroscope));

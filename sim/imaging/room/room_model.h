@@ -40,6 +40,8 @@ double operator_side(const RoomFrame& frame, const cases::Case& scene) noexcept;
 struct RoomWish {
   std::size_t skin_triangles = 20'000;  // at most; the case's own skin has more
   bool mentor = false;                  // structures and bone, for a look inside
+  // In place of the scene's: where another thread may change that meanwhile.
+  std::optional<cases::Picture> picture{};
 };
 
 struct RoomModel {

@@ -128,6 +128,20 @@ TEST(DebriefTest, TheLargestShortfallComesFirstAndATrifleIsNotLargeBecauseExpert
                 "Had the target in the picture for only 94 % of the time in tissue; 8 consultants: 100 %."}));
 }
 
+// At a case of an older law of sight the version of then is all there is; of several the newest is told.
+TEST(DebriefTest, AFactIsTheNewestVersionThatIsStored) {
+  Attempt attempt = Attempt().with("blind_advance", 14.2);
+  ASSERT_GT(attempt.metrics.back().version, 1);
+  MetricValue older = attempt.metrics.back();
+  --older.version;
+  older.value = 9.0;
+  attempt.metrics.push_back(older);
+  EXPECT_EQ(attempt.debriefed({})[0].text, "Advanced 14 mm with the tip out of the picture.");
+  attempt.metrics = good_quality();
+  attempt.metrics.push_back(older);
+  EXPECT_EQ(attempt.debriefed({})[0].text, "Advanced 9 mm with the tip out of the picture.");
+}
+
 TEST(DebriefTest, TimeIsTheLastThatIsHeldAgainstSomebody) {
   const auto said = Attempt()
                         .with("time_total", 500.0)

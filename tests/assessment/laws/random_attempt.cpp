@@ -229,7 +229,7 @@ RandomAttempt begun(std::uint64_t seed, Draw& draw) {
   constexpr cases::Modality kModalities[] = {cases::Modality::mpr, cases::Modality::ultrasound,
                                              cases::Modality::ultrasound, cases::Modality::xray};
   attempt.setting.modality = kModalities[draw.from(0, 3)];
-  attempt.setting.probe_suits = DepthRange{0.0, 50.0};
+  attempt.setting.probe_suits = cases::DepthRange{0.0, 50.0};
   attempt.setting.approach = draw.chance(0.65) ? cases::Approach::in_plane : cases::Approach::out_of_plane;
   attempt.setting.instrument.kind = draw.chance(0.6) ? cases::InstrumentKind::access : cases::InstrumentKind::core;
   return attempt;

@@ -142,7 +142,7 @@ inline SampleAttempt sample_attempt(const SampleKind& kind, const Sampling& samp
   AttemptSetting& setting = sample.setting;
   setting.modality = kind.modality;
   setting.approach = kind.approach;
-  setting.probe_suits = DepthRange{0.0, 50.0};
+  setting.probe_suits = cases::DepthRange{0.0, 50.0};
   setting.instrument.kind = kind.instrument;
   setting.instrument.throw_mm = 10.0;
   setting.instrument.notch_mm = 8.0;

@@ -95,16 +95,21 @@ TEST(ChosenProbe, SuitsTheDepthAtWhichItLookedWhenTheSkinWasPunctured) {
   auto recording = straight([](double t_s) { return ramp(t_s, 20.0); }, 3.0);  // through the skin after 1 s
   EXPECT_EQ(value(recording, "probe_suits", s).reason, "probe_given");
   const auto suits = [&](double from_mm, double to_mm, double face_mm) {
-    s.probe_suits = DepthRange{from_mm, to_mm};
+    s.probe_suits = cases::DepthRange{from_mm, to_mm};
     // Before and after the puncture it is somewhere else.
-    for (cases::PoseSample& pose : recording.poses)
-      pose.probe_origin_lps_mm = {0.0, pose.t_s > 0.9 && pose.t_s < 1.2 ? face_mm : -500.0, 0.0};
+    for (cases::PoseSample& pose : recording.poses) {
+      pose.probe_axial = {0.0, 1.0, 0.0};
+      pose.probe_origin_lps_mm = {70.0, pose.t_s > 0.9 && pose.t_s < 1.2 ? face_mm : -500.0, 0.0};
+    }
     return number(recording, "probe_suits", s);
   };
   EXPECT_EQ(suits(0.0, 50.0, 0.0), 0.0) << "60 mm are too deep for a linear probe";
   EXPECT_EQ(suits(0.0, 50.0, 11.0), 1.0);
   EXPECT_EQ(suits(25.0, 300.0, 0.0), 1.0);
   EXPECT_EQ(suits(25.0, 300.0, 36.0), 0.0) << "24 mm are too near for a curved one";
+  const std::string definition = find_metric("probe_suits")->definition;
+  for (const double bound_mm : {cases::kLinearSuits.to_mm, cases::kCurvedSuits.from_mm})
+    EXPECT_NE(definition.find(std::to_string(std::lround(bound_mm)) + " mm"), std::string::npos) << bound_mm;
   const auto beside = straight([](double) { return -10.0; }, 3.0);
   EXPECT_EQ(value(beside, "probe_suits", s).reason, "never_punctured");
   s.modality = cases::Modality::mpr;

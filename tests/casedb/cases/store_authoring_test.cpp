@@ -226,6 +226,7 @@ CaseSetting full_setting() {
   setting.position = cases::PatientPosition::lateral_left;
   setting.approach = cases::Approach::out_of_plane;
   setting.probe_is_chosen = true;
+  setting.touch.tip = cases::NeedleTip::trocar;
   setting.instrument = {cases::InstrumentKind::core, 160.5, 0.635, 0.4, 2900.0, 21.5, 17.5, 3.5};
   setting.clinic = {1.3, 187.0, "latex", "lesion of the liver", true};
   setting.planned_entry_lps_mm = glm::dvec3(1.0 / 3.0, -2.0, 3e-3);
@@ -246,6 +247,8 @@ TEST_F(AuthoringTest, TheSettingComesBack) {
   EXPECT_EQ(row.position, setting.position);
   EXPECT_EQ(row.approach, setting.approach);
   EXPECT_TRUE(row.probe_is_chosen);
+  EXPECT_EQ(row.touch.tip, setting.touch.tip);
+  EXPECT_EQ(row.touch.law, setting.touch.law);
   EXPECT_EQ(row.instrument.kind, setting.instrument.kind);
   for (const auto member :
        {&cases::Instrument::length_mm, &cases::Instrument::radius_mm, &cases::Instrument::inner_radius_mm,

@@ -16,6 +16,7 @@
 #include "session/guidance/picture_clock.h"
 #include "session/monitor/guidance_screen.h"
 #include "sim/case/paint.h"
+#include "sim/case/probe_depths.h"
 #include "sim/imaging/ultrasound/colour.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/volume/tissue/find_tissue.h"
@@ -129,6 +130,9 @@ TEST(UltrasoundPicture, ByAnotherProbeShowsTheTargetWhereItWas) {
     for (const imaging::Probe* probe : offered_probes()) {
       const cases::Picture other = by_probe(picture, *probe);
       EXPECT_EQ(other.probe, probe->name);
+      const auto suits = cases::depths_that_suit(probe->name);
+      ASSERT_TRUE(suits.has_value());
+      EXPECT_EQ(suits->from_mm > 0.0, probe->radius_mm > 0.0) << "only a curved one may be too near";
       EXPECT_EQ(other.modality, cases::Modality::ultrasound);
       EXPECT_GE(other.depth_mm, probe->least_depth_mm);
       EXPECT_LE(other.depth_mm, probe->most_depth_mm);

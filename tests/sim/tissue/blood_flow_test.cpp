@@ -46,7 +46,8 @@ TEST(BloodFlow, GoesWhereAnatomySendsIt) {
        {Way{"carotid", {0, 0, 1}}, Way{"common_carotid_artery_left", {0, 0, 1}}, Way{"jugular_vein", {0, 0, -1}},
         Way{"aorta", {0, 0, -1}}, Way{"femoral_artery", {0, 0, -1}}, Way{"femoral_vein", {0, 0, 1}},
         Way{"iliac_vena_right", {0, 0, 1}}, Way{"inferior_vena_cava", {0, 0, 1}},
-        Way{"superior_vena_cava", {0, 0, -1}}, Way{"portal_vein", {-1, 0, 0}}})
+        Way{"superior_vena_cava", {0, 0, -1}}, Way{"portal_vein", {-1, 0, 0}},
+        Way{"hepatic_portal_vein", {-1, 0, 0}}})
     for (const double turned : {-1.0, 1.0}) {
       const std::vector<cases::Structure> one = {
           tube(way.name, -30.0 * turned * way.towards, 30.0 * turned * way.towards)};

@@ -18,27 +18,23 @@ struct Probe {
   double bandwidth;    // of the pulse, −6 dB, fraction of its frequency
   // What a console offers with it.
   double least_mhz = 0.0, most_mhz = 0.0, least_depth_mm = 0.0, most_depth_mm = 0.0;
-  double suits_from_mm = 0.0, suits_to_mm = 0.0;  // targets whose middle lies so deep below its face
 };
 
 // Frequency, elements, pitch, radius, height and elevation focus: the Verasonics probes as PyMUST lists them
 // (getparam). Aperture, F-number 2 and a pulse of 60 % of the frequency: design (half to all of the elements). The
 // band is the one that their names tell, the thesis' two the same share of theirs; the depths: design, from what
-// such a probe is taken for to where nothing comes back. What suits: a linear one is taken down to about 5 cm
-// (teaching texts of regional anaesthesia); nearer than 25 mm a curved one has neither width nor thin a slice (our
-// judgement).
-inline constexpr Probe kC52v = {"C5-2v", 3.57, 128, 0.508, 49.57, 13.5,  60.0, 32.0,
-                                2.0,     0.6,  2.0, 5.0,   40.0,  300.0, 25.0, 300.0};
-inline constexpr Probe kL115v = {"L11-5v", 7.6, 128, 0.300, 0.0,  5.0,   18.0, 19.2,
-                                 2.0,      0.6, 5.0, 11.0,  20.0, 120.0, 0.0,  50.0};
+// such a probe is taken for to where nothing comes back.
+inline constexpr Probe kC52v = {"C5-2v", 3.57, 128, 0.508, 49.57, 13.5, 60.0,
+                                32.0,    2.0,  0.6, 2.0,   5.0,   40.0, 300.0};
+inline constexpr Probe kL115v = {"L11-5v", 7.6, 128, 0.300, 0.0, 5.0, 18.0, 19.2, 2.0, 0.6, 5.0, 11.0, 20.0, 120.0};
 // The two of Vidal's thesis (§4.6.1). It tells one number, the straight face of about 8 cm; with 128 elements a
 // real one would have grating lobes (pitch two wavelengths), which are not modelled: for comparison, not to learn
 // on. Its curve it measured on a picture; the Ultrasonix C5-2/60 of the PLUS toolkit stands in (60 mm, 56°). The
 // rest: design.
 inline constexpr Probe kThesisLinear = {
-    "thesis-linear", 5.0, 128, 0.625, 0.0, 6.0, 25.0, 40.0, 2.0, 0.6, 3.0, 7.0, 20.0, 200.0, 0.0, 50.0};
+    "thesis-linear", 5.0, 128, 0.625, 0.0, 6.0, 25.0, 40.0, 2.0, 0.6, 3.0, 7.0, 20.0, 200.0};
 inline constexpr Probe kThesisCurved = {
-    "thesis-curved", 3.5, 128, 0.458, 60.0, 13.5, 60.0, 29.0, 2.0, 0.6, 2.1, 4.9, 40.0, 300.0, 25.0, 300.0};
+    "thesis-curved", 3.5, 128, 0.458, 60.0, 13.5, 60.0, 29.0, 2.0, 0.6, 2.1, 4.9, 40.0, 300.0};
 
 inline constexpr std::array<Probe, 4> kProbes = {kC52v, kL115v, kThesisLinear, kThesisCurved};
 

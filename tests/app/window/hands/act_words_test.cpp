@@ -34,12 +34,12 @@ TEST(ActWords, OfTheArmsTellWhatStandsInTheWayFirst) {
   EXPECT_EQ(arms_words(arms).words, "left arm: probe · right arm: needle · F10: live");
   EXPECT_FALSE(arms_words(arms).warns);
   arms.at_limit[1] = true;
-  EXPECT_EQ(arms_words(arms).words, "right arm at its limit: tissue resists more");
+  EXPECT_EQ(arms_words(arms).words, "right arm at its limit: the tissue resists more than you feel");
   EXPECT_TRUE(arms_words(arms).warns);
   EXPECT_STREQ(arm_state(arms, haptics::Side::right), "at_limit");
   EXPECT_STREQ(arm_state(arms, haptics::Side::left), "ok");
   arms.at_limit[0] = true;
-  EXPECT_EQ(arms_words(arms).words, "both arms at their limit: tissue resists more");
+  EXPECT_EQ(arms_words(arms).words, "both arms at their limit: the tissue resists more than you feel");
   arms.late[0] = true;
   EXPECT_EQ(arms_words(arms).words, "the left arm answers too late to push back: no force there");
   arms.late[1] = true;

@@ -19,13 +19,17 @@ class InterruptedTrainerTest : public TrainerTest {
   std::string attempt_id_, person_id_;
   cases::Inputs left_;
 
+  virtual void set_up_case() {}
+  virtual void change(session::Task&) {}  // before it is begun
   void SetUp() override {
     TrainerTest::SetUp();
+    set_up_case();
     publish();
     casedb::Library library = open();
     person_id_ = casedb::log_in(library, "mona", kPassword)->person_id;
-    const auto task = session::prepare_task(library, case_id_, "");
+    auto task = session::prepare_task(library, case_id_, "");
     ASSERT_TRUE(task);
+    change(*task);
     const auto id =
         casedb::open_attempt(library, session::head_of(*task, this_program(), std::string(casedb::kPersonOperator),
                                                        0, std::optional(person_id_)));
@@ -103,6 +107,35 @@ TEST_F(InterruptedTrainerTest, IsOfferedToWhoMadeItAndGoesOnWhereItWas) {
   trainer.back();
   trainer.choose(case_id_);
   EXPECT_FALSE(trainer.interrupted());
+}
+
+// Of a case that leaves the probe to whoever attempts it, begun with the curved one.
+class InterruptedWithAProbeTest : public InterruptedTrainerTest {
+ protected:
+  void set_up_case() override {
+    casedb::Library library = open();
+    casedb::CaseSetting setting = casedb::find_case(library, case_id_).value();
+    setting.modality = cases::Modality::ultrasound;
+    setting.probe_is_chosen = true;
+    ASSERT_TRUE(casedb::set_setting(library, case_id_, setting));
+  }
+  void change(session::Task& task) override { session::choose_probe(task, "C5-2v"); }
+};
+
+TEST_F(InterruptedWithAProbeTest, GoesOnByThatProbeWhateverWasClicked) {
+  Trainer trainer(open());
+  trainer.log_in("mona", kPassword);
+  trainer.choose(case_id_);
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  trainer.choose_probe("L11-5v");
+  ASSERT_TRUE(trainer.resume(false));
+  ASSERT_TRUE(looks_until(trainer, TrainerScreen::attempt)) << trainer.refusal();
+  trainer.attempt()->end();
+  ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
+  EXPECT_EQ(trainer.debrief()->attempt.picture.probe, "C5-2v");
+  trainer.again();
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  EXPECT_EQ(trainer.chosen_probe(), "C5-2v") << "what lies ready is what the attempt would be made with";
 }
 
 TEST_F(InterruptedTrainerTest, ANewOneClosesItAsItIs) {
