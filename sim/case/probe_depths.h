@@ -11,8 +11,8 @@ struct DepthRange {
   double from_mm = 0.0, to_mm = 0.0;
 };
 
-// A linear probe is taken down to about 5 cm (teaching texts of regional anaesthesia); nearer than 25 mm a curved one
-// has neither width nor a thin slice (our judgement).
+// A linear probe is taken down to about 5 cm (teaching texts of regional anaesthesia); nearer than 25 mm a curved
+// one has neither width nor a thin slice (our judgement).
 inline constexpr DepthRange kLinearSuits{0.0, 50.0}, kCurvedSuits{25.0, 300.0};
 
 // Nothing: there is no probe of that name.
