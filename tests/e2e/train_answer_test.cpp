@@ -28,7 +28,7 @@ class TrainAnswerTest : public testing::Test {
   void sit_down() {
     person_.reset();
     person_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder(),
-                                                  std::vector<std::string>{"--mute"});
+                                                  fixtures::in_small_window({"--mute"}));
     ASSERT_FALSE(HasFailure());
   }
   std::string focus() const { return person_->now().value("focus", ""); }

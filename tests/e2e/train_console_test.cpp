@@ -26,7 +26,8 @@ class TrainConsoleTest : public testing::Test {
   // The demo's case by this guidance, and a mentor who may try it as it is.
   void begin(const std::string& modality) {
     library_ = fixtures::library_to_try("train_console_" + modality, modality);
-    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_->path(), library_->folder());
+    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_->path(), library_->folder(),
+                                                   fixtures::in_small_window());
     ASSERT_NO_FATAL_FAILURE(trainee_->log_in("mona", kPassword));
     ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
     ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());

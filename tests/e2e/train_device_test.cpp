@@ -96,9 +96,10 @@ TEST(ArmFaults, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAttemp
   const auto library = fixtures::library_to_try("train_device_faults", "mpr");
   AtTheEntry desk;
   app::HaplySimulation& service = desk.led->service();
-  fixtures::Trainee trainee(kProgram, library.path(), library.folder(),
-                            {"--device", "haply", "--device-port", std::to_string(service.port()), "--station",
-                             (library.folder() / "station.json").string()});
+  fixtures::Trainee trainee(
+      kProgram, library.path(), library.folder(),
+      fixtures::in_small_window({"--device", "haply", "--device-port", std::to_string(service.port()), "--station",
+                                 (library.folder() / "station.json").string()}));
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
@@ -172,8 +173,9 @@ TEST(TrainDevice, AnArmIsCalibratedAndTestedAtTheDevicePageAndHoldsTheNeedleAfte
   const auto station = library.folder() / "station.json";
   const std::string case_id = library.ask("case list")["cases"].at(0)["case_id"];
   EXPECT_EQ(library.call("train --case nonsense").exit_code, 3);
-  fixtures::Trainee trainee(kProgram, library.path(), library.folder(),
-                            {"--device", "virtual", "--station", station.string(), "--case", case_id});
+  fixtures::Trainee trainee(
+      kProgram, library.path(), library.folder(),
+      fixtures::in_small_window({"--device", "virtual", "--station", station.string(), "--case", case_id}));
   const auto asks = [&](const char* words) {
     return trainee.now().value("asks", std::string()).find(words) != std::string::npos;
   };
@@ -227,9 +229,9 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
 
   auto service = std::make_unique<Service>(library.folder(), "0");
   const std::string port = service->port();
-  fixtures::Trainee trainee(
-      kProgram, library.path(), library.folder(),
-      {"--device", "haply", "--device-port", port, "--station", (library.folder() / "station.json").string()});
+  fixtures::Trainee trainee(kProgram, library.path(), library.folder(),
+                            fixtures::in_small_window({"--device", "haply", "--device-port", port, "--station",
+                                                       (library.folder() / "station.json").string()}));
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());

@@ -53,7 +53,7 @@ void enter(fixtures::Trainee& trainee) {
 TEST(TrainHands, AThreeDMouseLeadsTheNeedleAndRestsWhenItsDaemonIsGone) {
   const auto library = fixtures::library_to_try("train_space_mouse", "mpr");
   fixtures::SpacenavDaemon daemon;
-  fixtures::Trainee trainee(kProgram, library.path(), library.folder());
+  fixtures::Trainee trainee(kProgram, library.path(), library.folder(), fixtures::in_small_window());
   daemon.ready();
   ASSERT_NO_FATAL_FAILURE(enter(trainee));
   daemon.motion({120, 0, 0}, {});
@@ -83,7 +83,7 @@ TEST(TrainHands, AGamepadLeadsTheNeedleFiresAndMayBeUnplugged) {
   says(still);
   ::setenv("SELDINGER_FAKE_GAMEPAD", (scratch / "pad").c_str(), 1);
   ::setenv("LD_PRELOAD", fixtures::built_target("fake_gamepad").c_str(), 1);
-  fixtures::Trainee trainee(kProgram, library.path(), library.folder());
+  fixtures::Trainee trainee(kProgram, library.path(), library.folder(), fixtures::in_small_window());
   ::unsetenv("LD_PRELOAD");
   ::unsetenv("SELDINGER_FAKE_GAMEPAD");
   ASSERT_NO_FATAL_FAILURE(enter(trainee));

@@ -27,8 +27,9 @@ class TrainKeysTest : public testing::Test {
   void SetUp() override { case_id_ = fixtures::draft_of_course(library_); }
   void sit_down() {
     words_ = library_.folder() / "words.txt";
-    person_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder(),
-                                                  std::vector<std::string>{"--words", words_.string(), "--mute"});
+    person_ =
+        std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder(),
+                                            fixtures::in_small_window({"--words", words_.string(), "--mute"}));
     ASSERT_FALSE(HasFailure());
   }
   void press(const std::string& key) const { person_->press(key); }

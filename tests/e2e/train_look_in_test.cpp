@@ -27,7 +27,7 @@ TEST(TrainLookInTest, WhatAMentorLetsHappenHappensInTheTraineesRoom) {
     const auto folder = library.folder() / name;
     std::filesystem::create_directories(folder);
     return std::make_unique<fixtures::Trainee>(fixtures::kProgram, library.path(), folder,
-                                               std::vector<std::string>{"--mute"});
+                                               fixtures::in_small_window({"--mute"}));
   };
   const auto tina = sits_down("tina");
   ASSERT_NO_FATAL_FAILURE(tina->log_in("tina", kPassword));

@@ -52,7 +52,8 @@ class TrainTest : public testing::Test {
   void SetUp() override {
     folder_ = library_->folder() / testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
-    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_->path(), folder_);
+    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_->path(), folder_,
+                                                   fixtures::in_small_window());
     ASSERT_FALSE(HasFailure());
   }
   Json now() const { return trainee_->now(); }
@@ -123,7 +124,7 @@ bool skin(int red, int green, int blue) {
 
 TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->log_in("tina", kPassword));
-  EXPECT_EQ(look().width_px, 1280);
+  EXPECT_EQ(look().width_px, 960);
   ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
   ASSERT_NO_FATAL_FAILURE(see_planning_ct());
   ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());

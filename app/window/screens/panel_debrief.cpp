@@ -304,6 +304,13 @@ void DebriefPanel::draw_definition(const Debrief& debrief) {
   }
   wrapped(kLink, card_.label);
   note_item(("Definition of " + card_.label).c_str());
+  // In sight however small the window.
+  if (about.t_s && !attempt_id_.empty()) {
+    if (noted_button(("Play this moment, " + reports::clock_text(*about.t_s) + " (P)").c_str()))
+      play_s_ = about.t_s;
+    ImGui::SameLine();
+  }
+  if (noted_button("Back to the steps (Esc)")) asked_ = -1;
   ImGui::TextWrapped("%s", about_.words.c_str());
   ImGui::Spacing();
   ImGui::TextWrapped("%s", card_.definition.c_str());
@@ -313,13 +320,6 @@ void DebriefPanel::draw_definition(const Debrief& debrief) {
     wrapped(kQuiet, one.name);
     ImGui::TextWrapped("%s", one.text.c_str());
   }
-  ImGui::Spacing();
-  if (about.t_s && !attempt_id_.empty()) {
-    if (noted_button(("Play this moment, " + reports::clock_text(*about.t_s) + " (P)").c_str()))
-      play_s_ = about.t_s;
-    ImGui::SameLine();
-  }
-  if (noted_button("Back to the steps (Esc)")) asked_ = -1;
 }
 
 void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPicture* picture) {
