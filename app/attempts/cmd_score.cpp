@@ -123,7 +123,7 @@ base::Result<assessment::Scored> score_attempt(const Arguments& arguments,
                                                std::optional<casedb::AttemptGrade>& grade) {
   auto library = open_library(arguments);
   if (!library) return library.error();
-  const std::string attempt_id = arguments.positional(0);
+  const std::string& attempt_id = arguments.positional(0);
   auto attempt = casedb::find_attempt(*library, attempt_id);
   if (!attempt) return attempt.error();
   const auto recording = casedb::load_recording(*library, attempt_id);

@@ -25,7 +25,7 @@ int run_case_explain(const Arguments& arguments) {
   if (arguments.has("--sheet")) sheet = file_of("--sheet", arguments.required("--sheet"), {".png"});
   auto library = open_library(arguments);
   if (!library) return refuse(library.error());
-  const std::string case_id = arguments.positional(0);
+  const std::string& case_id = arguments.positional(0);
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
   std::optional<cases::LesionForm> target;

@@ -112,7 +112,7 @@ int run_case_setting(const Arguments& arguments) {
   }
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const std::string case_id = arguments.positional(0);
+  const std::string& case_id = arguments.positional(0);
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
   if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());

@@ -10,7 +10,7 @@
 
 namespace seldinger::app {
 
-MadeFolder::MadeFolder(std::filesystem::path folder) : path_(std::filesystem::absolute(std::move(folder))) {
+MadeFolder::MadeFolder(const std::filesystem::path& folder) : path_(std::filesystem::absolute(folder)) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   if (path_.filename().empty()) path_ = path_.parent_path();  // it was given with a slash at its end

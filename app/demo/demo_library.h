@@ -15,7 +15,7 @@ namespace seldinger::app {
 // library in it is closed before.
 class MadeFolder {
  public:
-  explicit MadeFolder(std::filesystem::path folder);
+  explicit MadeFolder(const std::filesystem::path& folder);
   ~MadeFolder();
   MadeFolder(const MadeFolder&) = delete;
   MadeFolder& operator=(const MadeFolder&) = delete;

@@ -66,7 +66,7 @@ int run_bundle_check(const Arguments& arguments) {
 }
 
 int run_bundle_import(const Arguments& arguments) {
-  const std::string file = arguments.positional(0);
+  const std::string& file = arguments.positional(0);
   const bool may_make = arguments.has("--new-library");
   if (may_make)  // a library is not made for what is refused
     if (const auto sound = casedb::check_bundle(file); !sound)

@@ -35,13 +35,8 @@ std::vector<double> shifts_of(const Arguments& arguments) {
   return shifts;
 }
 
-template <typename... Numbers>
-void print(const char* format, Numbers... numbers) {
-  std::printf(format, numbers...);
-}
-
 void print_sum(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
-  print(
+  std::printf(
       "| shift | metrics | interval holds the truth, least | middle | most | outside 95 ± 2.5 %% | pairs, largest "
       "rank correlation |\n|---|---|---|---|---|---|---|\n");
   for (std::size_t s = 0; s < shifts.size(); ++s) {
@@ -52,51 +47,51 @@ void print_sum(const std::vector<population::MetricDose>& doses, const std::vect
       paired = std::max(paired, std::abs(one.responses[s].paired));
     }
     if (shares.empty()) {
-      print("| %g | 0 | – | – | – | – | %.3f |\n", shifts[s], paired);
+      std::printf("| %g | 0 | – | – | – | – | %.3f |\n", shifts[s], paired);
       continue;
     }
     std::sort(shares.begin(), shares.end());
     const auto outside = std::count_if(shares.begin(), shares.end(),
                                        [](double share) { return !(std::abs(share - kPlanned) <= kMayBeOff); });
-    print("| %g | %zu | %.1f %% | %.1f %% | %.1f %% | %td | %.3f |\n", shifts[s], shares.size(),
-          100.0 * shares.front(), 100.0 * shares[shares.size() / 2], 100.0 * shares.back(), outside, paired);
+    std::printf("| %g | %zu | %.1f %% | %.1f %% | %.1f %% | %td | %.3f |\n", shifts[s], shares.size(),
+                100.0 * shares.front(), 100.0 * shares[shares.size() / 2], 100.0 * shares.back(), outside, paired);
   }
 }
 
 // Of metrics that are normal enough at some shift.
 void print_differences(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
-  print(
+  std::printf(
       "\nDifferences in standard deviations, of metrics that are normal enough in both groups (skewness within "
       "±0.5, "
       "excess kurtosis within ±1), or whose logarithm is (ln):\n\n| metric |");
-  for (const double shift : shifts) print(" shift %g |", shift);
-  print("\n|---|");
-  for (std::size_t s = 0; s < shifts.size(); ++s) print("---|");
-  print("\n");
+  for (const double shift : shifts) std::printf(" shift %g |", shift);
+  std::printf("\n|---|");
+  for (std::size_t s = 0; s < shifts.size(); ++s) std::printf("---|");
+  std::printf("\n");
   for (const population::MetricDose& one : doses) {
     if (std::none_of(one.responses.begin(), one.responses.end(), [](const auto& at) { return at.d.has_value(); }))
       continue;
-    print("| `%s` |", one.metric.c_str());
+    std::printf("| `%s` |", one.metric.c_str());
     for (const population::MetricResponse& at : one.responses)
       if (at.d)
-        print(" %+.2f%s (%.1f %%) |", *at.d, at.of_logarithms ? " ln" : "", 100.0 * d_covered_share(at));
+        std::printf(" %+.2f%s (%.1f %%) |", *at.d, at.of_logarithms ? " ln" : "", 100.0 * d_covered_share(at));
       else
-        print(" – |");
-    print("\n");
+        std::printf(" – |");
+    std::printf("\n");
   }
 }
 
 void print_metrics(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts) {
-  print("\n| metric |");
-  for (const double shift : shifts) print(" shift %g |", shift);
-  print("\n|---|");
-  for (std::size_t s = 0; s < shifts.size(); ++s) print("---|");
-  print("\n");
+  std::printf("\n| metric |");
+  for (const double shift : shifts) std::printf(" shift %g |", shift);
+  std::printf("\n|---|");
+  for (std::size_t s = 0; s < shifts.size(); ++s) std::printf("---|");
+  std::printf("\n");
   for (const population::MetricDose& one : doses) {
-    print("| `%s` |", one.metric.c_str());
+    std::printf("| `%s` |", one.metric.c_str());
     for (const population::MetricResponse& at : one.responses)
-      print(" %.3f (%.1f %%) |", at.area, 100.0 * covered_share(at));
-    print("\n");
+      std::printf(" %.3f (%.1f %%) |", at.area, 100.0 * covered_share(at));
+    std::printf("\n");
   }
 }
 
@@ -115,7 +110,7 @@ int run_surrogate_coverage(const Arguments& arguments) {
     std::fputs(json_of_doses(doses, shifts, options).c_str(), stdout);
     return kDone;
   }
-  print(
+  std::printf(
       "Simulated, nothing here is about people: %zu studies of %zu and %zu people a shift at `%s`, the truth of "
       "%zu "
       "in each group.\n\n",
