@@ -41,7 +41,8 @@ std::string told_by_debug() {
 TEST(Determinism, TheSameHashAtEveryTickInDebugAndAsReleased) {
   const std::string debug = told_by_debug();
   const std::string released = output_of(fixtures::built_target("determinism_released"));
-  EXPECT_TRUE(released == debug) << "what is released differs from Debug at tick " << first_difference(debug, released);
+  EXPECT_TRUE(released == debug) << "what is released differs from Debug at tick "
+                                 << first_difference(debug, released);
 }
 
 TEST(Determinism, TheSameHashAtEveryTickWithFma) {
