@@ -65,25 +65,25 @@ void read_row(const Arguments& arguments, const casedb::SettingRow& row, casedb:
              row.field);
 }
 
-void read_criteria(const Arguments& arguments, assessment::PassRule& rule) {
+void read_criteria(const Arguments& arguments, casedb::CaseSetting& setting) {
   if (!arguments.has("--pass") && !arguments.has("--critical")) return;
-  rule.criteria.clear();
+  setting.rule.criteria.clear();
   for (const char* option : {"--pass", "--critical"}) {
     if (!arguments.has(option)) continue;
     for (const std::string& text : arguments.all(option)) {
-      auto criterion = assessment::criterion_from(text);
+      auto criterion = assessment::criterion_from(text, setting.sight_law);
       if (!criterion)
         throw UsageError(std::string(option) + " is METRIC<=VALUE, METRIC>=VALUE or METRIC=VALUE, not " +
                          shown(text));
       criterion->critical = std::string(option) == "--critical";
-      rule.criteria.push_back(std::move(*criterion));
+      setting.rule.criteria.push_back(std::move(*criterion));
     }
   }
 }
 
 void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
   for (const casedb::SettingRow& row : casedb::kSettingRows) read_row(arguments, row, setting);
-  read_criteria(arguments, setting.rule);
+  read_criteria(arguments, setting);
 }
 
 // Than its title, which a draft with attempts may change too.
@@ -96,15 +96,14 @@ bool sets_more(const Arguments& arguments) {
 }
 
 int run_case_setting(const Arguments& arguments) {
-  std::optional<assessment::PassRule> rule;
+  std::optional<std::string> rule;
   if (arguments.has("--rule")) {
     if (arguments.has("--pass") || arguments.has("--critical"))
       throw UsageError("a rule is a file, or --pass and --critical");
     const auto text = read_text_of(arguments, "--rule", 1U << 20U);
     if (!text) return refuse(text.error());
-    auto read = assessment::rule_from_json(*text);
-    if (!read) return refuse(read.error());
-    rule = std::move(*read);
+    if (const auto read = assessment::rule_from_json(*text); !read) return refuse(read.error());
+    rule = *text;
   }
   {
     casedb::CaseSetting any;
@@ -118,7 +117,7 @@ int run_case_setting(const Arguments& arguments) {
   if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
   casedb::CaseSetting setting = *row;
   read_setting(arguments, setting);
-  if (rule) setting.rule = std::move(*rule);
+  if (rule) setting.rule = std::move(assessment::rule_from_json(*rule, row->sight_law)).value();
   std::optional<std::string> title;
   if (arguments.has("--title")) title = arguments.text("--title");
   const auto set = title && !sets_more(arguments) ? casedb::set_title(*library, case_id, *title)

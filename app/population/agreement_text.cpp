@@ -48,14 +48,22 @@ void add_levels(const std::vector<LevelAgreement>& levels, std::string& text) {
   using Level = const population::Agreement&;
   row("attempts that it does not know", [](Level one) { return one.attempts; });
   row("metrics", [](Level one) { return one.metrics.size(); });
-  row("metrics with a quantile (10, 50, 90 %) off by more than .1 SD", [](Level one) { return one.quantiles_off; });
-  row("of those beyond 3 standard errors, too", [](Level one) { return one.quantiles_beyond_chance; });
+  // Found, what a surrogate without fault would have beside it, and those beyond chance.
+  const auto off_rows = [&](const char* what, std::size_t population::Off::*which) {
+    row(what, [&](Level one) { return one.off.*which; });
+    text += "| of a surrogate without fault: the middle of " + std::to_string(population::Agreement::kFaultless) +
+            " checks (at most) |";
+    for (const LevelAgreement& one : levels)
+      add_line(text, " %zu (%zu) |", one.agreement.off_without_fault.*which,
+               one.agreement.most_off_without_fault.*which);
+    text += "\n";
+    row("found beyond 3 standard errors, too", [&](Level one) { return one.beyond_chance.*which; });
+  };
+  off_rows("metrics with a quantile (10, 50, 90 %) off by more than .1 SD", &population::Off::quantiles);
   error_row("root mean square of what is off beyond chance, SD", [](Level one) { return one.quantile_own_sd; });
-  row("shares of nulls and zeros off by more than 3 points", [](Level one) { return one.shares_off; });
-  row("of those beyond 3 standard errors, too", [](Level one) { return one.shares_beyond_chance; });
+  off_rows("shares of nulls and zeros off by more than 3 points", &population::Off::shares);
   row("pairs of metrics", [](Level one) { return one.pairs; });
-  row("pairs with a rank correlation off by more than .1", [](Level one) { return one.pairs_off; });
-  row("of those beyond 3 standard errors, too", [](Level one) { return one.pairs_beyond_chance; });
+  off_rows("pairs with a rank correlation off by more than .1", &population::Off::pairs);
   error_row("root mean square of what is off beyond chance", [](Level one) { return one.rank_correlation_own; });
 }
 

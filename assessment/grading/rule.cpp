@@ -26,12 +26,6 @@ std::string number_text(double value) {
   return {buffer, end};
 }
 
-// What stands in a text that names no version; 1 of a metric that is not known.
-int version_in_force(const std::string& metric) {
-  const MetricInfo* info = find_metric(metric);
-  return info == nullptr ? 1 : info->version;
-}
-
 bool has_rule(std::span<const cases::Structure> structures, cases::StructureRule rule) {
   return std::any_of(structures.begin(), structures.end(),
                      [&](const cases::Structure& one) { return one.rule == rule; });
@@ -51,14 +45,19 @@ std::optional<Comparison> comparison_from(std::string_view sign) noexcept {
   return base::from_name(kSigns, sign);
 }
 
+int version_in_force(const std::string& metric, cases::SightLaw law) {
+  const MetricInfo* info = find_metric(metric);
+  return info == nullptr ? 1 : version_of(*info, law);
+}
+
 std::string text_of(const Criterion& criterion) {
   std::string text = criterion.metric;
-  if (criterion.version != version_in_force(criterion.metric))
+  if (criterion.version != version_in_force(criterion.metric, cases::kNewestSightLaw))
     text.append("@").append(std::to_string(criterion.version));
   return text.append(" ").append(sign_of(criterion.comparison)).append(" ").append(number_text(criterion.value));
 }
 
-std::optional<Criterion> criterion_from(std::string_view text) {
+std::optional<Criterion> criterion_from(std::string_view text, cases::SightLaw law) {
   for (const std::string_view sign : base::kNamesOf<kSigns>) {
     const std::size_t at = text.find(sign);
     if (at == text.npos) continue;
@@ -81,7 +80,7 @@ std::optional<Criterion> criterion_from(std::string_view text) {
         !std::isfinite(criterion.value))
       return std::nullopt;
     criterion.metric = name;
-    criterion.version = version.value_or(version_in_force(criterion.metric));
+    criterion.version = version.value_or(version_in_force(criterion.metric, law));
     return criterion;
   }
   return std::nullopt;

@@ -32,10 +32,14 @@ struct PassRule {
 std::string_view sign_of(Comparison comparison) noexcept;  // "<=", ">=", "="
 std::optional<Comparison> comparison_from(std::string_view sign) noexcept;
 
-// "core_in_target >= 10", and back: without a version the one that is in force, any other is told ("hit@2 >= 1").
-// Nothing when it is not such a text. What is stored names every version (rule_json.h).
+// What a criterion that names no version means at a case of that law of sight; 1 of a metric that is not known.
+int version_in_force(const std::string& metric, cases::SightLaw law);
+
+// "core_in_target >= 10", and back. As text a version is told where it is not the newest ("hit@2 >= 1"); read, a
+// criterion without one is of the version that is in force at a case of that law. Nothing when it is not such a
+// text. What is stored names every version (rule_json.h).
 std::string text_of(const Criterion& criterion);
-std::optional<Criterion> criterion_from(std::string_view text);
+std::optional<Criterion> criterion_from(std::string_view text, cases::SightLaw law = cases::kNewestSightLaw);
 
 // What a case is practised with, and what it does not have of what metrics need.
 struct Guidance {

@@ -9,7 +9,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostCriteria = 100;
 
-void read_criterion(const Json& json, const std::string& where, PassRule& rule, std::vector<base::Problem>& wrong) {
+void read_criterion(const Json& json, const std::string& where, cases::SightLaw law, PassRule& rule,
+                    std::vector<base::Problem>& wrong) {
   const auto bad = [&](const char* what) { wrong.push_back({"bad_criterion", where + ": " + what}); };
   if (!json.is_object()) return bad("is no object");
   for (const auto& [key, value] : json.items())
@@ -20,6 +21,7 @@ void read_criterion(const Json& json, const std::string& where, PassRule& rule, 
   const auto field = [&](const char* name) -> const Json& { return json.contains(name) ? json.at(name) : none; };
   if (!field("metric").is_string()) return bad("needs a metric's id");
   one.metric = field("metric").get<std::string>();
+  one.version = version_in_force(one.metric, law);
   if (json.contains("version")) {
     if (!field("version").is_number_integer() || field("version").get<std::int64_t>() < 1 ||
         field("version").get<std::int64_t>() > 1'000'000)
@@ -52,7 +54,7 @@ std::string json_of_rule(const PassRule& rule) {
   return Json{{"criteria", criteria}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-base::Result<PassRule> rule_from_json(const std::string& text) {
+base::Result<PassRule> rule_from_json(const std::string& text, cases::SightLaw law) {
   base::Error error{"bad_rule", "the pass rule is not as it should be"};
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("criteria") || !json.at("criteria").is_array() || json.size() != 1 ||
@@ -62,7 +64,7 @@ base::Result<PassRule> rule_from_json(const std::string& text) {
   }
   PassRule rule;
   for (std::size_t i = 0; i < json.at("criteria").size(); ++i)
-    read_criterion(json.at("criteria")[i], "criterion " + std::to_string(i + 1), rule, error.findings);
+    read_criterion(json.at("criteria")[i], "criterion " + std::to_string(i + 1), law, rule, error.findings);
   if (!error.findings.empty()) return error;
   return rule;
 }

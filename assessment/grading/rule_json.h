@@ -10,7 +10,8 @@ namespace seldinger::assessment {
 
 std::string json_of_rule(const PassRule& rule);  // one line
 
-// `version` and `critical` may be left out. Refused: `bad_rule`, all problems as findings; ids are not looked up.
-base::Result<PassRule> rule_from_json(const std::string& text);
+// `critical` may be left out, and `version`: then the one in force at a case of that law is meant. Refused:
+// `bad_rule`, all problems as findings; whether there is such a metric is not asked.
+base::Result<PassRule> rule_from_json(const std::string& text, cases::SightLaw law = cases::kNewestSightLaw);
 
 }  // namespace seldinger::assessment

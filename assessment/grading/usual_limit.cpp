@@ -69,10 +69,10 @@ double usual_value(const MetricInfo& info, bool at_most) {
 
 }  // namespace
 
-Criterion usual_criterion(const MetricInfo& info) {
+Criterion usual_criterion(const MetricInfo& info, cases::SightLaw law) {
   Criterion usual;
   usual.metric = info.id;
-  usual.version = info.version;
+  usual.version = version_of(info, law);
   const bool at_most = info.direction == Direction::lower_is_better ||
                        (info.direction == Direction::none && info.estimand.scale != Scale::yes_no);
   usual.comparison = at_most ? Comparison::at_most : Comparison::at_least;

@@ -7,6 +7,7 @@
 
 namespace seldinger::assessment {
 
-Criterion usual_criterion(const MetricInfo& info);
+// Of the version that a case of that law measures.
+Criterion usual_criterion(const MetricInfo& info, cases::SightLaw law = cases::kNewestSightLaw);
 
 }  // namespace seldinger::assessment

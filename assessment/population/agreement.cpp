@@ -116,10 +116,10 @@ void count_comparison(double off, double limit, double error, Agreement& sum) {
   count_errors(std::max(off - limit, 0.0) / error, sum);
 }
 
-MetricAgreement metric_agreement(std::span<const Values> full, std::span<const Values> drawn, std::size_t m,
-                                 bool whole, OwnError& own, Agreement& sum) {
+MetricAgreement metric_agreement(std::span<const Values> full, const Column& b, std::size_t m, bool whole,
+                                 OwnError& own, Agreement& sum) {
   MetricAgreement made;
-  const Column a = column_of(full, m), b = column_of(drawn, m);
+  const Column a = column_of(full, m);
   made.values = a.values.size();
   made.null_points = 100.0 * (b.null_share - a.null_share);
   made.zero_points = 100.0 * (b.zero_share - a.zero_share);
@@ -128,11 +128,12 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
   for (const auto& [points, error] :
        {std::pair(made.null_points, made.null_error_points), std::pair(made.zero_points, made.zero_error_points)}) {
     count_comparison(std::abs(points), kShareLimit, error, sum);
-    sum.shares_off += std::abs(points) > kShareLimit ? 1U : 0U;
-    sum.shares_beyond_chance += std::abs(points) > kShareLimit + kErrors * error ? 1U : 0U;
+    sum.off.shares += std::abs(points) > kShareLimit ? 1U : 0U;
+    sum.beyond_chance.shares += std::abs(points) > kShareLimit + kErrors * error ? 1U : 0U;
   }
+  if (a.values.size() < kFewestCompared || b.values.empty()) return made;
   const double sd = sd_of(a.values);
-  if (!(sd > 0.0) || b.values.empty()) return made;
+  if (!(sd > 0.0)) return made;
   bool off = false, beyond = false;
   for (const double share : kShares) {
     const double here = quantile_at(a.values, share, whole), there = quantile_at(b.values, share, whole);
@@ -153,8 +154,8 @@ MetricAgreement metric_agreement(std::span<const Values> full, std::span<const V
     }
     made.quantile_errors = std::max(made.quantile_errors, errors);
   }
-  sum.quantiles_off += off ? 1U : 0U;
-  sum.quantiles_beyond_chance += beyond ? 1U : 0U;
+  sum.off.quantiles += off ? 1U : 0U;
+  sum.beyond_chance.quantiles += beyond ? 1U : 0U;
   return made;
 }
 
@@ -220,29 +221,66 @@ double difference_of(const std::vector<double>& less, const std::vector<double>&
   return pooled > 0.0 ? (mean_of(more) - mean_of(less)) / pooled : 0.0;
 }
 
-void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std::span<const Values> drawn,
-                   std::span<const std::size_t> compared, Agreement& sum) {
-  OwnError own{.limit = kPairLimit};
-  for (std::size_t i = 0; i < compared.size(); ++i)
+// What the surrogate draws, once for all that is held against it.
+struct DrawnSide {
+  struct Metric {
+    std::size_t m;
+    bool whole;
+    Column column;
+  };
+  struct Pair {
+    std::size_t m, k;
+    double rho;
+  };
+  std::vector<Metric> metrics;  // those that enough held-out attempts have
+  std::vector<Pair> pairs;
+};
+
+DrawnSide drawn_side(const Surrogate& surrogate, std::span<const Values> full, std::span<const Values> drawn) {
+  DrawnSide side;
+  for (std::size_t m = 0; m < surrogate.mark().metrics.size(); ++m) {
+    const auto values =
+        std::count_if(full.begin(), full.end(), [&](const Values& row) { return row[m].has_value(); });
+    if (static_cast<std::size_t>(values) >= kFewestCompared)
+      side.metrics.push_back({m, is_whole(surrogate.mark().metrics[m].id), column_of(drawn, m)});
+  }
+  for (std::size_t i = 0; i < side.metrics.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const auto a = rank_correlation(full, compared[i], full, compared[j]);
-      const auto b = rank_correlation(drawn, compared[i], drawn, compared[j]);
-      if (!a || !b) continue;
-      ++sum.pairs;
-      const double off = std::abs(a->rho - b->rho);
-      sum.pairs_off += off > kPairLimit ? 1U : 0U;
-      // Of the attempts, were the surrogate right: in a few of them two metrics may go together without exception.
-      const double error = error_of({b->rho, a->n});
-      own.add(off, error);
-      count_comparison(off, kPairLimit, error, sum);
-      sum.pairs_beyond_chance += off > kPairLimit + kErrors * error ? 1U : 0U;
-      if (off > sum.worst_rank_correlation) {
-        sum.worst_rank_correlation = off;
-        sum.rank_correlation_error = error;
-        sum.worst_pair =
-            surrogate.mark().metrics[compared[i]].id + " and " + surrogate.mark().metrics[compared[j]].id;
-      }
+      const std::size_t m = side.metrics[i].m, k = side.metrics[j].m;
+      if (const auto both = rank_correlation(drawn, m, drawn, k)) side.pairs.push_back({m, k, both->rho});
     }
+  return side;
+}
+
+void compare_metrics(std::span<const Values> full, const DrawnSide& side, const SurrogateMark& mark,
+                     Agreement& sum) {
+  OwnError own{.limit = kQuantileLimit};
+  for (const DrawnSide::Metric& one : side.metrics) {
+    sum.metrics.push_back(metric_agreement(full, one.column, one.m, one.whole, own, sum));
+    sum.metrics.back().metric = mark.metrics[one.m].id;
+  }
+  sum.quantile_own_sd = own.rms();
+}
+
+void compare_pairs(std::span<const Values> full, const DrawnSide& side, const SurrogateMark& mark, Agreement& sum) {
+  OwnError own{.limit = kPairLimit};
+  for (const DrawnSide::Pair& pair : side.pairs) {
+    const auto found = rank_correlation(full, pair.m, full, pair.k);
+    if (!found) continue;
+    ++sum.pairs;
+    const double off = std::abs(found->rho - pair.rho);
+    sum.off.pairs += off > kPairLimit ? 1U : 0U;
+    // Of the attempts, were the surrogate right: in a few of them two metrics may go together without exception.
+    const double error = error_of({pair.rho, found->n});
+    own.add(off, error);
+    count_comparison(off, kPairLimit, error, sum);
+    sum.beyond_chance.pairs += off > kPairLimit + kErrors * error ? 1U : 0U;
+    if (off > sum.worst_rank_correlation) {
+      sum.worst_rank_correlation = off;
+      sum.rank_correlation_error = error;
+      sum.worst_pair = mark.metrics[pair.m].id + " and " + mark.metrics[pair.k].id;
+    }
+  }
   sum.rank_correlation_own = own.rms();
 }
 
@@ -250,23 +288,29 @@ void compare_pairs(const Surrogate& surrogate, std::span<const Values> full, std
 
 Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoint> held_out, std::size_t draws_each,
                        std::uint64_t seed) {
-  Agreement sum;
   const std::vector<Values> full = whole(held_out), drawn = drawn_for(surrogate, held_out, draws_each, seed);
+  const DrawnSide side = drawn_side(surrogate, full, drawn);
+  const auto compared = [&](std::span<const Values> rows) {
+    Agreement sum;
+    compare_metrics(rows, side, surrogate.mark(), sum);
+    compare_pairs(rows, side, surrogate.mark(), sum);
+    return sum;
+  };
+  Agreement sum = compared(full);
   sum.attempts = full.size();
   sum.draws = drawn.size();
-  std::vector<std::size_t> compared;
-  OwnError of_quantiles{.limit = kQuantileLimit};
-  for (std::size_t m = 0; m < surrogate.mark().metrics.size(); ++m) {
-    const auto values =
-        std::count_if(full.begin(), full.end(), [&](const Values& row) { return row[m].has_value(); });
-    if (static_cast<std::size_t>(values) < kFewestCompared) continue;
-    compared.push_back(m);
-    sum.metrics.push_back(
-        metric_agreement(full, drawn, m, is_whole(surrogate.mark().metrics[m].id), of_quantiles, sum));
-    sum.metrics.back().metric = surrogate.mark().metrics[m].id;
+  std::array<std::vector<std::size_t>, 3> counts;
+  for (std::size_t i = 0; i < Agreement::kFaultless; ++i) {
+    const std::uint64_t own = base::hash_combine(seed, std::uint64_t{i});
+    const Off off = compared(drawn_for(surrogate, held_out, 1, own)).off;
+    counts[0].push_back(off.quantiles);
+    counts[1].push_back(off.shares);
+    counts[2].push_back(off.pairs);
   }
-  sum.quantile_own_sd = of_quantiles.rms();
-  compare_pairs(surrogate, full, drawn, compared, sum);
+  for (auto& one : counts) std::sort(one.begin(), one.end());
+  constexpr std::size_t kMiddle = Agreement::kFaultless / 2, kMost = Agreement::kFaultless - 1;
+  sum.off_without_fault = {counts[0][kMiddle], counts[1][kMiddle], counts[2][kMiddle]};
+  sum.most_off_without_fault = {counts[0][kMost], counts[1][kMost], counts[2][kMost]};
   return sum;
 }
 

@@ -24,6 +24,10 @@ struct MetricAgreement {
   double null_points = 0.0, null_error_points = 0.0;
   double zero_points = 0.0, zero_error_points = 0.0;
 };
+// How many are further apart than .1 SD, 3 points, .1.
+struct Off {
+  std::size_t quantiles = 0, shares = 0, pairs = 0;
+};
 struct Agreement {
   std::size_t attempts = 0, draws = 0;
   std::vector<MetricAgreement> metrics;  // those with 30 values or more
@@ -33,12 +37,14 @@ struct Agreement {
   // How many comparisons there were, and how far the furthest lies beyond .1 SD, 3 points, .1, in standard errors.
   std::size_t comparisons = 0;
   double furthest_errors = 0.0;
-  // How many are further apart than .1 SD, 3 points, .1; and how many of them by more than 3 standard errors
-  // beyond.
+  // Found; and beyond by more than 3 standard errors.
+  Off off, beyond_chance;
+  // The same of a surrogate without fault: of kFaultless sets of as many attempts that it drew itself, for the same
+  // places, the middle and the most of each. Metrics hang together, so one fluctuation moves many at once.
+  static constexpr std::size_t kFaultless = 20;
+  Off off_without_fault, most_off_without_fault;
   // What is left of the differences when chance is taken away, root mean square: the surrogate's own error.
   double quantile_own_sd = 0.0, rank_correlation_own = 0.0;
-  std::size_t quantiles_off = 0, shares_off = 0, pairs_off = 0;
-  std::size_t quantiles_beyond_chance = 0, shares_beyond_chance = 0, pairs_beyond_chance = 0;
 };
 // Both are drawn for the same places.
 Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoint> held_out, std::size_t draws_each,

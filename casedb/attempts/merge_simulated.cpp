@@ -55,7 +55,7 @@ base::Result<void> check_case(Library& into, Library& from, const std::string& c
 }
 
 bool is_there(Library& into, const AttemptRow& row) {
-  const std::vector<AttemptRow> there = list_bare_attempts_of(into, *row.person_id);
+  const std::vector<AttemptRow> there = list_attempts_of_seed(into, *row.person_id, row.seed);
   return std::any_of(there.begin(), there.end(), [&](const AttemptRow& one) { return key_of(one) == key_of(row); });
 }
 

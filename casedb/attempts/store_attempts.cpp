@@ -316,6 +316,12 @@ std::vector<AttemptRow> list_bare_attempts_of(Library& library, const std::strin
   return read_bare(std::move(attempts));
 }
 
+std::vector<AttemptRow> list_attempts_of_seed(Library& library, const std::string& person_id, std::uint64_t seed) {
+  Statement attempts = question(library.database(), "attempts_of_seed");
+  attempts.bind("person_id", person_id).bind("seed", static_cast<std::int64_t>(seed));
+  return read_bare(std::move(attempts));
+}
+
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id,
                                          const std::set<std::string>& metrics) {
   Sqlite& database = library.database();

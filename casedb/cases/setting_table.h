@@ -97,6 +97,21 @@ consteval ChoiceField modality() {
   return field;
 }
 
+// Another kind of needle comes with the tip of its kind; a tip that is named as well stands after it in the table.
+inline bool set_instrument_kind(CaseSetting& to, std::string_view name) {
+  const auto kind = base::from_name(cases::kInstrumentKindNames, name);
+  if (!kind) return false;
+  if (*kind != to.instrument.kind)
+    to.touch.tip = *kind == cases::InstrumentKind::core ? cases::NeedleTip::core : cases::NeedleTip::bevel;
+  to.instrument.kind = *kind;
+  return true;
+}
+consteval ChoiceField instrument_kind() {
+  ChoiceField field = choice<cases::kInstrumentKindNames, &CaseSetting::instrument, &Instrument::kind>();
+  field.set = &set_instrument_kind;
+  return field;
+}
+
 inline constexpr const char* kFurtherColumns[] = {"further_modalities"};
 inline constexpr const char* kEntryColumns[] = {"planned_entry_x_lps_mm", "planned_entry_y_lps_mm",
                                                 "planned_entry_z_lps_mm"};
@@ -151,17 +166,17 @@ inline constexpr auto kSettingRows = [] {
                   "ultrasound: given as it suits the depth, or chosen by whoever attempts the case; default given"},
        .editor = {.words = "the trainee chooses the probe", .place = 4}},
       {.column = "instrument_kind",
-       .field = choice<cases::kInstrumentKindNames, needle, &Instrument::kind>(),
+       .field = instrument_kind(),
        .json = "instrument/kind",
        .option = {"--instrument", base::kAlternatives<cases::kInstrumentKindNames>,
-                  "access: the tip decides; core: the fired notch"},
+                  "access: the tip decides; core: the fired notch. Another one comes with its own --tip"},
        .editor = {.words = "needle", .place = 6, .names = base::kNamesOf<kInstrumentWords>},
        .of_attempts = true},
       {.column = "instrument_tip",
        .field = choice<cases::kNeedleTipNames, &CaseSetting::touch, &cases::Touch::tip>(),
        .json = "instrument/tip",
        .option = {"--tip", base::kAlternatives<cases::kNeedleTipNames>,
-                  "the shape of its tip, which sets the force of cutting; default bevel"},
+                  "the shape of its tip, which sets the force of cutting; default bevel, of a core needle core"},
        .page = {.words = "Needle's tip", .place = 9},
        .editor = {.words = "tip", .place = 6, .names = base::kNamesOf<kTipWords>}},
       {.column = nullptr,

@@ -168,8 +168,8 @@ base::Result<std::string> Simulation::store_once(const casedb::NewAttempt& made)
   std::string there;
   const auto added = casedb::add_attempt_unless(*library_, made, [&] {
     if (!made.person_id) return false;
-    for (const casedb::AttemptRow& row : casedb::list_bare_attempts_of(*library_, *made.person_id))
-      if (row.seed == made.seed && was_made_at(row, task_)) there = row.attempt_id;
+    for (const casedb::AttemptRow& row : casedb::list_attempts_of_seed(*library_, *made.person_id, made.seed))
+      if (was_made_at(row, task_)) there = row.attempt_id;
     return !there.empty();
   });
   if (!added) return added.error();

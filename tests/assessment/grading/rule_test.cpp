@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "assessment/grading/rule_json.h"
+#include "assessment/grading/usual_limit.h"
 #include "assessment/registry.h"
 
 namespace seldinger::assessment {
@@ -61,7 +62,30 @@ TEST(RuleTest, JsonComesBack) {
   }
   const auto short_form = rule_from_json(R"({"criteria":[{"metric":"hit","comparison":">=","value":1}]})");
   ASSERT_TRUE(short_form.has_value());
-  EXPECT_EQ(short_form->criteria[0].version, 1);
+  EXPECT_EQ(short_form->criteria[0].version, find_metric("hit")->version);
+}
+
+// A case of an older law measures older versions: what names none means those, as text and in a file, and is no
+// problem there.
+TEST(RuleTest, WithoutAVersionTheOneThatTheCaseMeasuresIsMeant) {
+  const int newest = find_metric("vis_joint")->version;
+  Guidance guidance{};
+  guidance.manner.modality = cases::Modality::ultrasound;
+  for (const auto& [law, version] :
+       {std::pair(cases::SightLaw::echo, newest - 1), std::pair(cases::kNewestSightLaw, newest)}) {
+    guidance.sight_law = law;
+    const auto text = criterion_from("vis_joint >= 0.5", law);
+    ASSERT_TRUE(text.has_value());
+    EXPECT_EQ(text->version, version);
+    const auto json = rule_from_json(R"({"criteria":[{"metric":"vis_joint","comparison":">=","value":0.5}]})", law);
+    ASSERT_TRUE(json.has_value());
+    EXPECT_EQ(json->criteria.at(0).version, version);
+    EXPECT_EQ(usual_criterion(*find_metric("vis_joint"), law).version, version);
+    EXPECT_TRUE(problems_of({{*text}}, guidance).empty());
+    EXPECT_EQ(criterion_from(text_of(*text), law)->version, version);
+    // Which one is named is meant, whatever the case measures.
+    EXPECT_EQ(criterion_from("vis_joint@1 >= 0.5", law)->version, 1);
+  }
 }
 
 TEST(RuleTest, JsonThatIsNoRuleIsRefusedWithAllItsProblems) {

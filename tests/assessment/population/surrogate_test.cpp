@@ -22,15 +22,26 @@ TEST(Surrogate, AgreesWithAttemptsThatItDoesNotKnow) {
     const auto agreement = agreement_of(fitted(), attempts_of({shift}, 77, 1000), 20, 3);
     EXPECT_EQ(agreement.metrics.size(), 4U);
     EXPECT_EQ(agreement.pairs, 3U) << "one is the same in all";
-    EXPECT_EQ(agreement.quantiles_beyond_chance, 0U);
+    EXPECT_EQ(agreement.beyond_chance.quantiles, 0U);
     EXPECT_LT(agreement.quantile_own_sd, 0.06);
     EXPECT_LT(agreement.rank_correlation_own, 0.05);
-    EXPECT_EQ(agreement.shares_beyond_chance, 0U);
-    EXPECT_EQ(agreement.pairs_off, 0U) << agreement.worst_pair << agreement.worst_rank_correlation;
+    EXPECT_EQ(agreement.beyond_chance.shares, 0U);
+    EXPECT_EQ(agreement.off.pairs, 0U) << agreement.worst_pair << agreement.worst_rank_correlation;
     // Shares of nulls and of zeros of four metrics, three quantiles of three of them, three pairs.
     EXPECT_EQ(agreement.comparisons, 4U * 2U + 3U * 3U + 3U);
     EXPECT_LT(agreement.furthest_errors, 3.0);
   }
+}
+
+// Of sixty attempts chance takes quantiles beyond .1 SD and correlations beyond .1 whatever the surrogate is:
+// what is found of a right one is no more than that.
+TEST(Surrogate, WhatChanceTakesBeyondTheBoundsIsTold) {
+  const auto few = agreement_of(fitted(), attempts_of({0.0}, 77, 60), 20, 3);
+  EXPECT_GE(few.off_without_fault.quantiles, 1U);
+  EXPECT_GE(few.most_off_without_fault.pairs, 1U);
+  EXPECT_LE(few.off.quantiles, few.most_off_without_fault.quantiles);
+  EXPECT_LE(few.off.pairs, few.most_off_without_fault.pairs);
+  EXPECT_LE(few.off.shares, few.most_off_without_fault.shares);
 }
 
 TEST(Surrogate, AttemptsThatItWasFittedToAreKnownAgain) {
@@ -46,9 +57,10 @@ TEST(Surrogate, AWrongOneIsFoundOut) {
   for (SimulatedPoint& one : points) one.place[1] = 1.2 - one.place[1];
   const auto wrong = Surrogate::fit(known_mark(), points);
   const auto agreement = agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3);
-  EXPECT_GT(agreement.quantiles_beyond_chance, 0U);
+  EXPECT_GT(agreement.beyond_chance.quantiles, 0U);
   EXPECT_GT(agreement.furthest_errors, 5.0);
   EXPECT_GT(agreement.quantile_own_sd, 0.1);
+  EXPECT_GT(agreement.off.quantiles, agreement.most_off_without_fault.quantiles) << "not by chance";
 }
 
 // What groups differ by, in 300 attempts of each that it does not know; and the same of the other way round is
@@ -119,7 +131,7 @@ TEST(Surrogate, AGapBesideAQuantileIsNoFault) {
   // Of the share of .9 where .88 and .7 were to be: 2 √500 (asin √.9 − asin √.88), with √500/√10000 of it by
   // chance.
   EXPECT_NEAR(right.metrics.at(0).quantile_errors, 1.43, 0.9);
-  EXPECT_EQ(right.quantiles_beyond_chance, 0U);
+  EXPECT_EQ(right.beyond_chance.quantiles, 0U);
   EXPECT_NEAR(wrong.metrics.at(0).quantile_errors, 11.5, 0.9);
   EXPECT_GT(wrong.furthest_errors, 8.0);
 }

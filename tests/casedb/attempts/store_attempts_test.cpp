@@ -1,6 +1,7 @@
 // Attempts: recordings bit for bit, null scores that stay null, newest first, and nothing of a refused one.
 #include <limits>
 
+#include "casedb/attempts/add_unless.h"
 #include "casedb/people/people.h"
 #include "tests/casedb/library_samples.h"
 
@@ -207,6 +208,32 @@ TEST_F(StoreAttemptsTest, AttemptsAreListedNewestFirstEachWithItsOwnScores) {
     EXPECT_EQ(rows_of_ann[i].metrics.size(), 1U);
   }
   EXPECT_TRUE(list_attempts_of(library_, "nobody").empty());
+}
+
+// Asked of each simulated attempt that is stored: it must not look at all the others of the person.
+TEST_F(StoreAttemptsTest, APersonsAttemptsOfASeedAreFoundByIt) {
+  NewAttempt attempt = sample();
+  const std::string ann = add_user(library_, "ann", Role::trainee, "a password").value();
+  const std::string bob = add_user(library_, "bob", Role::trainee, "a password").value();
+  std::vector<std::string> of_seed;
+  for (const std::string& person_id : {ann, bob})
+    for (const std::uint64_t seed : {0xfedcba9876543210ULL, 7ULL, 7ULL}) {
+      attempt.person_id = person_id;
+      attempt.seed = seed;
+      attempt.started_us += 1;
+      const std::string attempt_id = add(attempt);
+      if (person_id == ann && seed == 7) of_seed.insert(of_seed.begin(), attempt_id);
+    }
+  std::vector<std::string> found;
+  for (const AttemptRow& row : list_attempts_of_seed(library_, ann, 7)) found.push_back(row.attempt_id);
+  EXPECT_EQ(found, of_seed);
+  EXPECT_EQ(list_attempts_of_seed(library_, bob, 0xfedcba9876543210ULL).size(), 1U);
+  EXPECT_TRUE(list_attempts_of_seed(library_, ann, 8).empty());
+  Statement plan = library_.database().prepare(
+      "EXPLAIN QUERY PLAN SELECT * FROM attempt_summary WHERE person_id = 'a' AND seed = 7");
+  bool by_index = false;
+  while (plan.step()) by_index = by_index || plan.text("detail").find("attempt_by_seed") != std::string::npos;
+  EXPECT_TRUE(by_index);
 }
 
 TEST_F(StoreAttemptsTest, WhatAnAttemptRefersToMustExist) {

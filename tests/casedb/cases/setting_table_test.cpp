@@ -94,6 +94,27 @@ TEST_F(SettingTableTest, EachSettingComesBackAndMovesNoOther) {
   }
 }
 
+void choose(std::string_view column, std::string_view name, CaseSetting& setting) {
+  for (const SettingRow& row : kSettingRows)
+    if (row.column != nullptr && row.column == column) {
+      ASSERT_TRUE(std::get<ChoiceField>(row.field).set(setting, name));
+    }
+}
+
+// In the table's order, as the command and the store go through it.
+TEST_F(SettingTableTest, AnotherKindOfNeedleComesWithItsTip) {
+  CaseSetting setting;
+  choose("instrument_kind", "core", setting);
+  EXPECT_EQ(setting.touch.tip, cases::NeedleTip::core);
+  choose("instrument_tip", "trocar", setting);
+  choose("instrument_kind", "core", setting);
+  EXPECT_EQ(setting.touch.tip, cases::NeedleTip::trocar) << "the kind is the one that it was";
+  ASSERT_TRUE(set_setting(library_, case_id_, setting));
+  EXPECT_EQ(find_case(library_, case_id_).value().touch.tip, cases::NeedleTip::trocar) << "its own is kept";
+  choose("instrument_kind", "access", setting);
+  EXPECT_EQ(setting.touch.tip, cases::NeedleTip::bevel);
+}
+
 TEST_F(SettingTableTest, WhatIsOutOfBoundsIsRefusedInTheWordsOfItsRow) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   int tried = 0;

@@ -266,7 +266,7 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
     Sqlite old(folder_ / kDatabaseFile);
     old.run(
         "DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes; DROP INDEX "
-        "audit_of_everybodys_records; DROP INDEX metric_value_hit");
+        "audit_of_everybodys_records; DROP INDEX metric_value_hit; DROP INDEX attempt_by_seed");
     old.run("ALTER TABLE training_case DROP COLUMN sight_law");
     old.run("DROP TRIGGER training_case_keeps_its_probe; ALTER TABLE training_case DROP COLUMN probe_is_chosen");
     for (const char* later :

@@ -480,7 +480,7 @@ bool EditorPanel::draw_rule(const CaseEditor& editor) {
       const assessment::MetricInfo* info = assessment::find_metric(id);
       assessment::Criterion more;
       more.metric = id;
-      if (info != nullptr) more = assessment::usual_criterion(*info);
+      if (info != nullptr) more = assessment::usual_criterion(*info, setting_.sight_law);
       setting_.rule.criteria.push_back(more);
       changed = true;
     }
