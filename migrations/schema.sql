@@ -717,7 +717,7 @@ CREATE TABLE training_case (
   CHECK (ct_breath IN ('expiration', 'inspiration')), breath_depth REAL NOT NULL DEFAULT 0.0
   CHECK (breath_depth BETWEEN 0 AND 3), probe_is_chosen INTEGER NOT NULL DEFAULT 0 CHECK (probe_is_chosen IN (0, 1)), instrument_tip TEXT NOT NULL DEFAULT 'bevel'
   CHECK (instrument_tip IN ('bevel', 'diamond', 'trocar', 'core')), touch_law TEXT NOT NULL DEFAULT 'steady'
-  CHECK (touch_law IN ('steady', 'by_speed'))) STRICT;
+  CHECK (touch_law IN ('steady', 'by_speed', 'organs_move'))) STRICT;
 
 CREATE TABLE trusted_key (
   public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),

@@ -233,7 +233,9 @@ constexpr Option kSimulateOptions[] = {
     {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
     {"--event", "KIND@SECONDS",
      "what happens at that time: a mentor's cough, bleeding or pressure_drop, or stylet_out, stylet_in or inject "
-     "(2 ml of contrast) at an access needle's hub; may be given many times",
+     "(2 ml of contrast) at an access needle's hub, or the first two of a core needle's introducer; may be given "
+     "many "
+     "times",
      true},
     {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
     {"--resume", "ATTEMPT",

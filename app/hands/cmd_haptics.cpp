@@ -65,6 +65,10 @@ cases::Gauge gauge_in(const Arguments& arguments) {
   return *cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
 }
 
+double introducer_in(const Arguments& arguments) {
+  return arguments.number("--introducer-mm", 0.0, 0.0, kMostDepthMm);
+}
+
 int run_haptics_insert(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
   const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue")).needle;
@@ -72,8 +76,10 @@ int run_haptics_insert(const Arguments& arguments) {
                            named(arguments, "--touch", cases::kTouchLawNames)};
   haptics::Insertion insertion{haptics::felt_by(row, gauge_in(arguments), touch),
                                positive(arguments, "--speed-mm-s", kMostSpeedMmS),
-                               positive(arguments, "--depth-mm", kMostDepthMm), arguments.number("--hold-s", 0.0),
-                               arguments.has("--retract")};
+                               positive(arguments, "--depth-mm", kMostDepthMm),
+                               arguments.number("--hold-s", 0.0),
+                               arguments.has("--retract"),
+                               introducer_in(arguments)};
   if (!(insertion.hold_s >= 0.0)) throw UsageError("--hold-s must not be below 0");
   haptics::NeedleSettings settings = haptics::of_law(haptics::NeedleSettings{}, touch.law);
   settings.relaxation = settings.relaxation || arguments.has("--relaxation");
@@ -194,6 +200,7 @@ constexpr Option kInsertOptions[] = {
      "opens a "
      "capsule, and tissue that is held relaxes"},
     {"--tip", base::kAlternatives<cases::kNeedleTipNames>, "its form, which counts by speed; default bevel"},
+    {"--introducer-mm", "D", "it goes through an introducer that ends so deep; default none"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
 
 constexpr Option kNeedlesOptions[] = {

@@ -37,6 +37,7 @@ struct XrayView {
   XrayOutput output = XrayOutput::line_integral;
   int supersampling = 1;  // rays a pixel in each direction
   SceneScatter scatter = SceneScatter::none;
+  double glare_share = 0.0;  // of the signal, spread over the picture
 };
 enum class UltrasoundOutput { display, envelope_db, polar_db };
 struct UltrasoundSceneView {

@@ -224,6 +224,9 @@ XrayView read_xray(const Json& json, base::Error& error, std::vector<std::string
   if (view.scatter != SceneScatter::none &&
       (view.output == XrayOutput::line_integral || !view.geometry.source_lps_mm))
     reader.bad("scatter", "is of an intensity or display, with source_mm: a line integral is primary only");
+  view.glare_share = 0.01 * reader.number("glare_percent", 0.0, 50.0, 0.0);
+  if (view.glare_share > 0.0 && view.output == XrayOutput::line_integral)
+    reader.bad("glare_percent", "is of an intensity or display: a line integral has none");
   const double rays = reader.number("supersampling", 1.0, 8.0, 1.0);
   view.supersampling = static_cast<int>(rays);
   if (view.supersampling != rays || view.supersampling * std::max(size[0], size[1]) > kMaxPixels)

@@ -135,6 +135,17 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
       picture.values[i] = static_cast<float>(signal);
     }
   }
+  if (view.glare_share > 0.0) {
+    double mean = 0.0;
+    for (const float value : log_signal)
+      mean += std::exp(static_cast<double>(value)) / static_cast<double>(log_signal.size());
+    for (std::size_t i = 0; i < log_signal.size(); ++i) {
+      const double signal =
+          (1.0 - view.glare_share) * std::exp(static_cast<double>(log_signal[i])) + view.glare_share * mean;
+      log_signal[i] = static_cast<float>(std::log(signal));
+      picture.values[i] = static_cast<float>(signal);
+    }
+  }
   const imaging::LogWindow window =
       imaging::window_of(log_signal, g.width_px, imaging::open_field(g.width_px, g.height_px, {}));
   picture.grey.resize(log_signal.size());

@@ -191,6 +191,21 @@ std::optional<double> planned_depth_kept_s(const Signals& signals) {
                                                                         : std::nullopt;
 }
 
+std::optional<double> stylet_exchanged_s(const Signals& signals) {
+  const cases::Shape target = cases::shape_of(*signals.setting.target);
+  bool taken = false;
+  for (const cases::Event& event : *signals.events) {
+    if (event.kind == cases::EventKind::stylet_in) taken = true;
+    if (event.kind != cases::EventKind::stylet_out || !taken) continue;
+    const std::size_t i = pose_at(signals, event.t_s);
+    const glm::dvec3& tip_lps_mm = signals.poses[i].tip_at_rest_lps_mm();
+    if (signals.passages[i].in_body &&
+        cases::signed_distance_mm(target, tip_lps_mm, kExchangeMm + 1.0) <= kExchangeMm)
+      return event.t_s;
+  }
+  return std::nullopt;
+}
+
 BreathChecks breath_checks(const Signals& signals) {
   BreathChecks checks;
   for (const BreathHold& hold : breath_holds(signals)) {

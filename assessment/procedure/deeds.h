@@ -13,6 +13,7 @@ constexpr double kMeasuredMm = 5.0, kMovedMm = 15.0;  // beside the target's edg
 constexpr double kPictureSeconds = 1.0;               // so long a live picture is still looked at
 constexpr double kAngleDeg = 15.0;
 constexpr double kPlannedDepthMm = 10.0;  // a needle's marks are 10 mm apart
+constexpr double kExchangeMm = 10.0;      // an introducer stops before the target, and the needle goes on
 constexpr double kCheckSeconds = 1.0;     // a hold that is over sooner left no time for a look
 constexpr double kUncheckedMm = 2.0;      // so far is no slip of the hand
 
@@ -31,6 +32,10 @@ std::optional<double> angle_kept_s(const Signals& signals);
 // The trigger, where the needle was in by the depth that was last planned before the first puncture. Events are
 // known, and there is skin.
 std::optional<double> planned_depth_kept_s(const Signals& signals);
+
+// An introducer's stylet was drawn in tissue, its tip at most kExchangeMm from the target's edge, or in it. Events
+// are known, and there are target and skin.
+std::optional<double> stylet_exchanged_s(const Signals& signals);
 
 // The check in the held breath and its way back (thesis, appendix A, step 12), of the holds that began with the
 // needle in tissue. Events are known.

@@ -134,6 +134,18 @@ When at_target(const Signals& signals) {
   });
 }
 
+// What is in the introducer when the trigger falls.
+When fired_on_stylet(const Signals& signals) {
+  if (!signals.endpoint) return std::nullopt;
+  bool in = false;
+  for (const cases::Event& one : *signals.events) {
+    if (one.t_s > signals.endpoint->t_s) break;
+    if (one.kind == EventKind::stylet_in) in = true;
+    if (one.kind == EventKind::stylet_out) in = false;
+  }
+  return in ? When(signals.endpoint->t_s) : std::nullopt;
+}
+
 When fired(const Signals& signals) {
   return signals.endpoint ? When(signals.endpoint->t_s) : std::nullopt;
 }
@@ -258,6 +270,7 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::anaesthetised_unaspirated, "anaesthetic was given with no aspiration in the 15 s before", kSaid,
      &anaesthetised_unaspirated},
     {Evidence::nicked, "the skin was nicked", kSaid, &event<EventKind::nick>},
+    {Evidence::introducer_taken, "an introducer was taken up", kSaid, &event<EventKind::stylet_in>},
     {Evidence::breath_hold_asked, "a held breath was asked for", kSaid, &event<EventKind::breath_hold_request>},
     {Evidence::signed_out, "the sign-out was said", kSaid, &event<EventKind::sign_out>},
     {Evidence::skin_pain, "skin that was not numb was punctured", kSaid, &event<EventKind::pain_skin>},
@@ -276,6 +289,10 @@ constexpr EvidenceInfo kEvidence[] = {
      kSkin, &jiggled},
     {Evidence::at_target, "the tip was in the target; a core needle's: at most 5 mm from its edge", kTarget | kSkin,
      &at_target},
+    {Evidence::stylet_exchanged,
+     "its stylet was drawn with its tip in tissue, at most 10 mm from the target's edge", kSaid | kTarget | kSkin,
+     [](const Signals& signals) { return stylet_exchanged_s(signals); }},
+    {Evidence::fired_on_stylet, "the trigger fell while the introducer's stylet was in", kSaid, &fired_on_stylet},
     {Evidence::at_planned_depth,
      "at the trigger the needle was in by the depth that was noted before the first puncture, give or take 10 mm",
      kSaid | kSkin | kCalipers, &planned_depth_kept_s},

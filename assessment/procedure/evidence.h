@@ -23,6 +23,7 @@ enum class Evidence : std::uint8_t {
   anaesthetised,
   anaesthetised_unaspirated,
   nicked,
+  introducer_taken,
   breath_hold_asked,
   signed_out,
   // Answered by the patient.
@@ -36,6 +37,8 @@ enum class Evidence : std::uint8_t {
   angle_kept,
   jiggled,
   at_target,
+  stylet_exchanged,
+  fired_on_stylet,
   at_planned_depth,
   fired,
   needle_out,

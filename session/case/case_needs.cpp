@@ -29,6 +29,10 @@ tissue::Displacement all_at_work(const cases::Case& scene, const engine::MovingT
     hands[1].needle.drag = {
         .entry_lps_mm = at, .direction = inward, .cut_mm = 40.0, .tip_n = 0.5, .tip_mm = 1.0, .shaft_mm = 0.5};
   }
+  if (!moving.organs().empty()) {
+    hands[1].needle.drag.organ = moving.organs()[0].tissue;
+    hands[1].needle.drag.organ_n = 0.5;
+  }
   cases::State state;
   state.breath.level = scene.breathing ? 1.0 - scene.breathing->ct_level : 1.0;
   return moving.seen(state, hands);
@@ -72,6 +76,7 @@ CaseNeeds needs_of_case(const cases::Case& scene) {
   };
   if (scene.yields)
     for (const char* kind : {"press", "needle tip", "needle shaft"}) add(kind);
+  if (!moving.organs().empty()) add("organ", "liver, kidney or spleen, as a whole");
   for (const tissue::CompressibleVein& vein : moving.veins()) add("vein", vein.name);
   if (moving.breathes()) add("breath");
   static_assert(kMostMotionSources == shaders::kMostDisplacementSources);

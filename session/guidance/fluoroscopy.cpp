@@ -55,6 +55,7 @@ struct FluoroscopySight::Parts {
   std::uint64_t live_tissue = 0;  // Tissue::version of what is in it
   imaging::Beams beams;
   imaging::AutomaticExposure automatic;
+  imaging::PanelFlaws flaws;
   // The patient without instruments, where the arm stood last.
   std::uint64_t metered_tissue = 0;
   std::optional<cases::CArm> metered_arm;
@@ -163,6 +164,10 @@ FluoroscopySight::Exposed FluoroscopySight::expose(const cases::State& state,
   return exposed;
 }
 
+void FluoroscopySight::set_panel(imaging::Panel panel) {
+  parts_->flaws = imaging::flaws_of(panel);
+}
+
 GreyPicture FluoroscopySight::picture(const cases::State& state, std::uint64_t seed,
                                       const tissue::Displacement& displacement) {
   const cases::Case& scene = parts_->scene;
@@ -170,6 +175,7 @@ GreyPicture FluoroscopySight::picture(const cases::State& state, std::uint64_t s
   imaging::PictureSettings settings;
   settings.seed = seed;
   settings.frame = machine.frames;
+  settings.flaws = parts_->flaws;
   const imaging::XrayGeometry geometry = parts_->geometry(machine, scene.fluoroscope.picture_px);
   const Parts::Tissue tissue = parts_->tissue_in(geometry, displacement);
   if (tissue.version != parts_->live_tissue) parts_->live.take_patient(tissue.volume, tissue.projector);

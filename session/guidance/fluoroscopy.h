@@ -11,6 +11,7 @@
 #include "sim/case/case.h"
 #include "sim/case/record/recording.h"
 #include "sim/case/state.h"
+#include "sim/imaging/xray/panel.h"
 #include "sim/tissue/displacement.h"
 
 namespace seldinger::session {
@@ -30,6 +31,8 @@ class FluoroscopySight {
   // does not depend on the one that is displayed, if any is.
   Exposed expose(const cases::State& state, const tissue::Displacement& displacement = {});
 
+  // Of the pictures from the next on; an ideal one unless it is told.
+  void set_panel(imaging::Panel panel);
   // The picture that the pulse of `state` gave. `seed` is the noise's: another attempt's is another's.
   GreyPicture picture(const cases::State& state, std::uint64_t seed, const tissue::Displacement& displacement = {});
 

@@ -23,6 +23,8 @@ class FluoroscopyPainter : public ScreenPainter {
 
   std::string method() const override { return kFluoroscopyMethod; }
 
+  void set_panel(imaging::Panel panel) override { room_.set_panel(panel); }
+
  private:
   FluoroscopySight room_;
   std::uint64_t seed_;

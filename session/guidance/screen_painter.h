@@ -11,6 +11,7 @@
 #include "sim/engine/tick.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/view/ultrasound.h"
+#include "sim/imaging/xray/panel.h"
 
 namespace seldinger::session {
 
@@ -50,6 +51,9 @@ class ScreenPainter {
 
   // Slices' alone: the moment that was drawn last, in this window.
   virtual void set_window(const HuWindow&, ShownPicture&) {}
+
+  // A fluoroscope's alone: from the next pulse on.
+  virtual void set_panel(imaging::Panel) {}
 };
 
 }  // namespace seldinger::session

@@ -66,6 +66,11 @@ void Monitor::set_window(const HuWindow& window) {
   woken_.notify_all();
 }
 
+void Monitor::set_panel(imaging::Panel panel) {
+  const std::lock_guard lock(mutex_);  // the next pulse wakes
+  panel_ = panel;
+}
+
 void Monitor::want() {
   if (guidance_->pulsed()) return;
   {
@@ -119,6 +124,8 @@ void Monitor::run() {
       method_ = painter->method();
       if (!pulsed) begun_s_ = clock_s();
       window.swap(window_);
+      if (panel_) painter->set_panel(*panel_);
+      panel_.reset();
     }
     const double between_s = 1.0 / guidance_->rate_hz(stands);
     due = std::max(due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(between_s)),

@@ -40,6 +40,7 @@ class Monitor {
   // By the window. `change` is called on the monitor's thread, soon; ultrasound only.
   void set_console(std::function<void(imaging::Console&)> change);
   void set_window(const HuWindow& window);  // slices only
+  void set_panel(imaging::Panel panel);     // fluoroscopy only
   // A picture of the newest moment, as soon as the machine's rate allows. Those that are asked for come at that
   // rate; unasked a few come, for the cine loop, and a fluoroscope's whenever it pulses.
   void want();
@@ -65,6 +66,7 @@ class Monitor {
   std::condition_variable woken_;
   std::vector<std::function<void(imaging::Console&)>> changes_;
   std::optional<HuWindow> window_;  // that is not drawn with yet
+  std::optional<imaging::Panel> panel_;
   ShownPicture newest_;
   bool fresh_ = false;
   bool stopping_ = false, wanted_ = false;

@@ -27,6 +27,7 @@ SHARED real3 displacement_at(OF_DISPLACEMENT real3 rest_mm) {
   for (; i < displacement.contact_end; ++i) moved_mm += displacement_contact(displacement.source[i], rest_mm);
   for (; i < displacement.tip_end; ++i) moved_mm += displacement_tip(displacement.source[i], rest_mm);
   for (; i < displacement.shaft_end; ++i) moved_mm += displacement_shaft(displacement.source[i], rest_mm);
+  for (; i < displacement.organ_end; ++i) moved_mm += displacement_organ(displacement.source[i], rest_mm);
   for (; i < displacement.vein_end; ++i) moved_mm += displacement_vein(displacement.source[i], rest_mm);
   for (; i < displacement.breath_end; ++i) moved_mm += displacement_breath(displacement.source[i], rest_mm);
   return moved_mm;

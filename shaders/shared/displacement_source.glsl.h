@@ -25,6 +25,7 @@ SHARED_CONSTANT real kHalfPi = 1.5707963267948966;
 //   vein:    place of one end of its axis; along: unit; size: radius, length, length of its ends; amount: share of
 //   its
 //            area that is gone
+//   organ:   place: its middle; along: mm it is moved; size: radius; amount: how it is turned, about an axis, rad
 //   breath:  place: x of the middle, y of the back, z of the diaphragm's dome; size: half width, depth (back to
 //   front),
 //            from dome up to where it is still, from dome down to there; amount: mm to the right, to the front,
@@ -43,9 +44,9 @@ struct Displacement {
   int shaft_end;
   int vein_end;
   int breath_end;  // = how many there are
+  int organ_end;   // organs stand between shafts and veins
   int padding_0;
   int padding_1;
-  int padding_2;
   DisplacementSource source[kMostDisplacementSources];
 };
 
@@ -205,6 +206,17 @@ SHARED real3 displacement_shaft(DisplacementSource source, real3 p_mm) {
   real4 moved = displacement_along_line(t_mm, sqrt(dot(across_mm, across_mm)), real(source.size_mm.x),
                                         real(source.size_mm.y));
   return real(source.amount.x) * (moved.x * along + moved.y * across_mm);
+}
+
+// An organ goes along and turns as a whole, and what lies about it less and less, up to twice its radius: there the
+// wall stays where it is, under which it slides (drawn, as breath is).
+SHARED real3 displacement_organ(DisplacementSource source, real3 p_mm) {
+  real3 from_mm = p_mm - real3(source.place_mm.x, source.place_mm.y, source.place_mm.z);
+  real3 turned = real3(source.amount.x, source.amount.y, source.amount.z);
+  real share = real(1.0) - eased(sqrt(dot(from_mm, from_mm)) / real(source.size_mm.x) - real(1.0));
+  return share * (real3(source.along.x, source.along.y, source.along.z) +
+                  real3(turned.y * from_mm.z - turned.z * from_mm.y, turned.z * from_mm.x - turned.x * from_mm.z,
+                        turned.x * from_mm.y - turned.y * from_mm.x));
 }
 
 // A vein that loses part of its area: what lies around moves in so that areas across it stay what they were.

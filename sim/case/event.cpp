@@ -30,8 +30,12 @@ constexpr EventInfo kKinds[] = {
     {breathe_again, trainee, "breathe_again", "let breathe again", "the patient may breathe again"},
     {depth_measured, trainee, "depth_measured", "measured a depth",
      "calipers were set in the picture from the skin down, and tell how deep they end"},
-    {stylet_out, trainee, "stylet_out", "drew the stylet", "the needle is open: what its tip lies in runs back"},
-    {stylet_in, trainee, "stylet_in", "put the stylet back", "the needle is closed again"},
+    {stylet_out, trainee, "stylet_out", "drew the stylet",
+     "the needle is open: what its tip lies in runs back; of a core needle it is the introducer's, which stays "
+     "where "
+     "it is"},
+    {stylet_in, trainee, "stylet_in", "put the stylet back",
+     "the needle is closed again; a core needle's introducer is taken up, or pushed on"},
     {inject, trainee, "inject", "injected contrast",
      "2 ml of contrast are pushed through the open needle, in 2 s, into whatever its tip lies in"},
     {sign_out, trainee, "sign_out", "signed out", "what was done, counted and to be watched is told"},

@@ -9,13 +9,14 @@
 #include "sim/case/state.h"
 #include "sim/haptics/two_hands.h"
 #include "sim/tissue/displacement.h"
+#include "sim/tissue/loose_organs.h"
 #include "sim/tissue/veins.h"
 
 namespace seldinger::engine {
 
 class MovingTissue {
  public:
-  // The scene must outlive it. One pass over its classes where it breathes.
+  // The scene must outlive it. One pass over its classes where it breathes, and where organs give way.
   explicit MovingTissue(const cases::Case& scene);
 
   // Whether anything can move at all.
@@ -23,6 +24,8 @@ class MovingTissue {
   bool breathes() const noexcept { return region_.has_value(); }
   // Those that give way to a probe; none where tissue does not yield.
   const std::vector<tissue::CompressibleVein>& veins() const noexcept { return veins_; }
+  // Those that give way to a needle; none by a law of touch of before.
+  const std::vector<tissue::LooseOrgan>& organs() const noexcept { return organs_; }
 
   // What a hand finds: displaced by breath and by what the other hand holds. Hands by Side; of what is in hand.
   tissue::Displacement felt_by_needle(const cases::State& state, const haptics::HandStates& hands) const noexcept;
@@ -37,6 +40,7 @@ class MovingTissue {
   const cases::Case& scene_;
   std::optional<tissue::BreathRegion> region_;  // where it breathes
   std::vector<tissue::CompressibleVein> veins_;
+  std::vector<tissue::LooseOrgan> organs_;  // by the newest law of touch
 };
 
 // A tool's pose as it is to the tissue at rest: its tip there, and a point `behind_mm` up the shaft, too.

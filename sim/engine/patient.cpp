@@ -84,8 +84,7 @@ EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& stat
   const cases::NeedleState& needle = state.needle;
   if (inputs.event == EventKind::anaesthetic && !scene_.skin_index.empty()) numb(inputs, needle, patient);
   // By the law of touch of before, nobody felt one.
-  if (inputs.event == EventKind::nick && !scene_.skin_index.empty() &&
-      scene_.touch.law == cases::TouchLaw::by_speed)
+  if (inputs.event == EventKind::nick && !scene_.skin_index.empty() && scene_.touch.law != cases::TouchLaw::steady)
     patient.nick_lps_mm[patient.nicked++ % kNickPlaces] = pointed_at(needle);
   if (inputs.event == EventKind::breathe_again) patient.let_go = true;
   const bool held = tissue::holds(state.breath.state);

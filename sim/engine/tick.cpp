@@ -23,21 +23,23 @@ void note_capsule(const haptics::HeldNeedleState& needle, TickState& now) noexce
   now.capsule_n = taken_n;
 }
 
+// Taken up outside the body, its stylet in; drawn there, it is put aside. In the body it stays once its stylet is
+// drawn, and goes on with the needle once that is in again.
+haptics::Introducer introducer_after(cases::EventKind said, bool in_body, haptics::Introducer now) noexcept {
+  using haptics::Introducer;
+  if (said == cases::EventKind::stylet_in) return in_body && now == Introducer::none ? now : Introducer::closed;
+  if (said == cases::EventKind::stylet_out && now == Introducer::closed)
+    return in_body ? Introducer::open : Introducer::none;
+  return now;
+}
+
 }  // namespace
 
 Moment moment_of(const TickState& now) noexcept {
-  return {now.state,
-          now.displacement,
-          now.force,
-          now.reaction.kind,
-          now.reaction.t_s,
-          now.event.kind,
-          now.event.t_s,
-          now.capsules,
-          now.capsule_n,
-          now.patient.numbed,
-          now.patient.numb_lps_mm,
-          now.patient.deep};
+  return {
+      now.state,     now.displacement, now.force,     now.reaction.kind,  now.reaction.t_s,        now.event.kind,
+      now.event.t_s, now.capsules,     now.capsule_n, now.patient.numbed, now.patient.numb_lps_mm, now.patient.deep,
+      now.introducer};
 }
 
 void Scenario::add_to(cases::Inputs& inputs, double t_s, std::uint32_t& happened) const noexcept {
@@ -67,6 +69,7 @@ std::optional<cases::ForceSample> Tick::feel(double elapsed_s, TickState& now) c
   needle.pose.position_lps_mm = state.needle.tip_lps_mm;
   needle.pose.axis = state.needle.direction;
   needle.nicks_lps_mm = nicks_of(now.patient);
+  needle.introducer = now.introducer;
   probe.tool = haptics::Tool::probe;
   probe.pose = {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
   bring_to_rest(now, needle);
@@ -97,6 +100,8 @@ cases::RecordedTick Tick::advance(const cases::Inputs& inputs, double dt_s, Tick
   tick.reaction = patient_.advance(inputs, state, now.patient);
   if (tick.reaction != cases::EventKind::none) now.reaction = {tick.reaction, state.t_s};
   if (inputs.event != cases::EventKind::none) now.event = {inputs.event, state.t_s};
+  if (scene_.instrument.kind == cases::InstrumentKind::core)
+    now.introducer = introducer_after(inputs.event, state.needle.skin.in_body, now.introducer);
   now.force = feel(dt_s, now);
   // Before a core needle's throw, in the same tick, drags what the trigger found.
   if (state.fire.fired && !fired)

@@ -35,8 +35,9 @@ struct Moment {
   // PatientState's: the latest places of the skin that are numb, at rest, and how many there were.
   std::uint32_t numbed = 0;
   std::array<glm::dvec3, kNumbPlaces> numb_lps_mm{};
-  std::uint32_t deep = 0;  // places about a tip in tissue were made numb
-  double told_s = 0.0;     // when what the hands wanted last was told, by whoever's clock told it; 0: it was not
+  std::uint32_t deep = 0;            // places about a tip in tissue were made numb
+  haptics::Introducer introducer{};  // of a core needle
+  double told_s = 0.0;  // when what the hands wanted last was told, by whoever's clock told it; 0: it was not
 };
 
 Moment moment_of(const TickState& now) noexcept;

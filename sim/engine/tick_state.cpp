@@ -6,17 +6,22 @@
 namespace seldinger::engine {
 namespace {
 
-constexpr fields::Mark kMark = {{'S', 'e', 'l', 'd', 'T', 'i', 'c', 'k'}, 5};
+constexpr fields::Mark kMark = {{'S', 'e', 'l', 'd', 'T', 'i', 'c', 'k'}, 6};
 
 // What the laws take as an index must be one, whoever wrote the bytes.
 bool usable(const TickState& now) noexcept {
   const auto known = [](cases::EventKind kind) {
     return kind == cases::EventKind::none || cases::find_event(kind) != nullptr;
   };
+  const auto known_introducer = [](haptics::Introducer introducer) {
+    return static_cast<int>(introducer) >= 0 && static_cast<int>(introducer) < haptics::kIntroducers;
+  };
+  if (!known_introducer(now.introducer)) return false;
   for (const haptics::HandState& hand : now.hands) {
     const haptics::NeedlePath& path = hand.needle.path;
     if (path.count > path.layers.size() || hand.needle.track.opened > path.count) return false;
     if (hand.delay_ticks < 0 || hand.delay_ticks > haptics::kMostDelayTicks) return false;
+    if (!known_introducer(hand.needle.introducer)) return false;
     if (static_cast<int>(hand.tool) < 0 || static_cast<int>(hand.tool) >= haptics::kTools) return false;
     for (const volume::TissueClass tissue : path.tissues)
       if (static_cast<std::size_t>(tissue) >= volume::kTissueClasses + haptics::kMostFeltLesions) return false;
@@ -28,7 +33,7 @@ bool usable(const TickState& now) noexcept {
     if (content > cases::LumenContent::fluid) return false;
   const tissue::Displacement& moved = now.displacement;
   if (moved.contact_end < 0 || moved.tip_end < moved.contact_end || moved.shaft_end < moved.tip_end ||
-      moved.vein_end < moved.shaft_end || moved.breath_end < moved.vein_end ||
+      moved.organ_end < moved.shaft_end || moved.vein_end < moved.organ_end || moved.breath_end < moved.vein_end ||
       moved.breath_end > shaders::kMostDisplacementSources)
     return false;
   const cases::FluoroscopyState& machine = now.state.fluoroscopy;

@@ -34,6 +34,7 @@ struct TickState {
   haptics::HandStates hands{};  // by haptics::Side: probe, needle
   PatientState patient;
   VirtualArms arms;
+  haptics::Introducer introducer{};           // of a core needle
   tissue::Displacement displacement{};        // where what pictures show is
   std::optional<cases::ForceSample> force{};  // none: nothing is felt in this case
   LastEvent reaction;                         // the patient's

@@ -43,11 +43,12 @@ SELDINGER_FIELDS(cases::State, tick, t, needle, probe, fire, breath, fluoroscopy
 SELDINGER_FIELDS(haptics::NeedleTissue, slope, intercept, tip_stiffness, rupture, dent, impenetrable)
 SELDINGER_FIELDS(haptics::NeedleLayer, start, tissue)
 SELDINGER_FIELDS(haptics::NeedlePath, layers, tissues, count)
-SELDINGER_FIELDS(haptics::NeedleTrack, opened, cut, shaft, falling, damper, last_depth, last_elastic, speed, begun)
+SELDINGER_FIELDS(haptics::NeedleTrack, opened, cut, shaft, falling, damper, last_depth, last_elastic, speed, sheath,
+                 begun, exchanged)
 SELDINGER_FIELDS(haptics::NeedleSideTrack, elastic, damper, last, stiffness, begun)
-SELDINGER_FIELDS(tissue::NeedleDrag, entry, direction, radius, cut, tip_n, tip_mm, shaft)
+SELDINGER_FIELDS(tissue::NeedleDrag, entry, direction, radius, cut, tip_n, tip_mm, shaft, organ, organ_n)
 SELDINGER_FIELDS(haptics::HeldNeedleState, skin, entry, direction, path, track, side, depth, looked, ticks_to_look,
-                 begun, free, outside, drag)
+                 introducer, begun, free, outside, drag)
 SELDINGER_FIELDS(haptics::ProbeTrack, last, shear, damper, last_elastic, side_stiffness, per_bone, touching)
 SELDINGER_FIELDS(tissue::SkinPress, at, inward, radius, depth, per_bone)
 SELDINGER_FIELDS(haptics::HeldProbeState, track, asked, gap, bone, triangle, ticks_to_look, press)
@@ -62,10 +63,10 @@ SELDINGER_FIELDS(PatientState, numb, numbed, deep_at, deep, nick, nicked, was_in
 SELDINGER_FIELDS(devices::VirtualDeviceState, pose, started)
 SELDINGER_FIELDS(VirtualArms, needle, probe)
 SELDINGER_FIELDS(shaders::DisplacementSource, place, along, size, amount)
-SELDINGER_FIELDS(tissue::Displacement, contact, tip, shaft, vein, breath, padding_0, padding_1, padding_2, source)
+SELDINGER_FIELDS(tissue::Displacement, contact, tip, shaft, vein, breath, organ, padding_0, padding_1, source)
 SELDINGER_FIELDS(cases::ForceSample, t, axial, lateral, probe)
 SELDINGER_FIELDS(LastEvent, kind, t)
-SELDINGER_FIELDS(TickState, state, hands, patient, arms, displacement, force, reaction, event, capsules, capsule_n,
-                 happened, hash)
+SELDINGER_FIELDS(TickState, state, hands, patient, arms, introducer, displacement, force, reaction, event, capsules,
+                 capsule_n, happened, hash)
 
 }  // namespace seldinger::engine::fields

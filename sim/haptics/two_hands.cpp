@@ -101,6 +101,7 @@ HandForce TwoHands::advance(const Station& station, const HandInput& input, doub
     state.delay_ticks = touches ? std::max(state.delay_ticks, input.delay_ticks) : input.delay_ticks;
     const Laws& laws = station.laws[static_cast<std::size_t>(state.delay_ticks)];
     if (state.tool == Tool::needle) {
+      needle_.exchange(input.introducer, state.needle);
       const HeldNeedleForce needle =
           needle_.advance(pose, laws.needle, laws.side, input.nicks_lps_mm, state.needle);
       force.wanted_n = needle.force_n;

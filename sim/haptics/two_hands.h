@@ -40,6 +40,7 @@ struct HandInput {
   bool healthy = true;                         // the device answers
   int delay_ticks = 1;                         // from encoder to motor as it is now; above kMostDelayTicks: a fault
   std::span<const glm::dvec3> nicks_lps_mm{};  // where the skin is cut, at rest
+  Introducer introducer = Introducer::none;    // of a needle
 };
 
 // What must be kept of one hand. A new one: nothing is held.

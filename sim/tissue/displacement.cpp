@@ -30,6 +30,14 @@ constexpr double kShortest = 5.0;  // needle radii of shaft, from where on it dr
 // Tissue's modulus around a needle: that of sim/haptics/needle/needle_law.h.
 constexpr double kNeedleShearNMm2 = 0.0045;
 
+// What holds an organ: loose fat and folds of peritoneum, as a wide medium would a ball of its volume (Stokes' and
+// Kirchhoff's drag, read as elastic: 6 π G R and 8 π G R³). Nobody has published how far a needle pushes a kidney;
+// this G lets one go by some 4 mm and 3° before its capsule opens, a liver by 1 mm (design; a prostate in a
+// simulator went 6.5 mm: MSEC2017, abstract).
+constexpr double kAboutOrganShearNMm2 = 0.001;
+// Of the organ's radius, what goes and turns by no more folds nothing.
+constexpr double kMostOfOrgan = 0.4;
+
 // What moves nothing more than this is no source.
 constexpr double kLeastMm = 1e-4;
 
@@ -87,6 +95,30 @@ NeedleSources needle_sources(const NeedleDrag& drag) noexcept {
                 vec4_from({ball_mm, 0.0, 0.0}), vec4_from({drag.tip_mm - at_tip_mm, 0.0, 0.0})};
   }
   return made;
+}
+
+bool organ_source(const PushedOrgan& organ, DisplacementSource& source) noexcept {
+  CHECK(organ.radius_mm > 0.0);
+  const double hold = std::numbers::pi * kAboutOrganShearNMm2 * organ.radius_mm;
+  glm::dvec3 moved_mm = organ.force_n / (6.0 * hold);
+  glm::dvec3 turned = glm::cross(organ.at_lps_mm - organ.middle_lps_mm, organ.force_n) /
+                      (8.0 * hold * organ.radius_mm * organ.radius_mm);
+  const double way_mm = std::sqrt(glm::dot(moved_mm, moved_mm));
+  const double most_mm = way_mm + organ.radius_mm * std::sqrt(glm::dot(turned, turned));
+  if (!(most_mm > kLeastMm)) return false;
+  const double share = std::min(1.0, kMostOfOrgan * organ.radius_mm / most_mm);
+  source = {vec4_from(organ.middle_lps_mm), vec4_from(share * moved_mm), vec4_from({organ.radius_mm, 0.0, 0.0}),
+            vec4_from(share * turned)};
+  return true;
+}
+
+// What the organ goes along by, the ball at the tip need not: tissue at the tip stays there.
+void take_organ_from_tip(const DisplacementSource& organ, DisplacementSource& tip) noexcept {
+  const glm::dvec3 left_mm = glm::dvec3(tip.along) * static_cast<double>(tip.amount.x) -
+                             shaders::displacement_organ(organ, glm::dvec3(tip.place_mm));
+  const double length_mm = std::sqrt(glm::dot(left_mm, left_mm));
+  if (length_mm > 0.0) tip.along = vec4_from(left_mm / length_mm);
+  tip.amount = vec4_from({length_mm, 0.0, 0.0});
 }
 
 bool vein_source(const SqueezedVein& vein, DisplacementSource& source) noexcept {
@@ -182,11 +214,17 @@ Displacement displacement_of(const Causes& causes) noexcept {
   int n = 0;
   for (const SkinPress& press : causes.presses) n += press_source(press, made.source[n]) ? 1 : 0;
   made.contact_end = n;
-  const NeedleSources needle = causes.needle ? needle_sources(*causes.needle) : NeedleSources{};
+  CHECK(!causes.organ || causes.presses.size() < static_cast<std::size_t>(kMostPresses));
+  DisplacementSource organ{};
+  const bool has_organ = causes.organ && organ_source(*causes.organ, organ);
+  NeedleSources needle = causes.needle ? needle_sources(*causes.needle) : NeedleSources{};
+  if (needle.has_tip && has_organ) take_organ_from_tip(organ, needle.tip);
   if (needle.has_tip) made.source[n++] = needle.tip;
   made.tip_end = n;
   if (needle.has_shaft) made.source[n++] = needle.shaft;
   made.shaft_end = n;
+  if (has_organ) made.source[n++] = organ;
+  made.organ_end = n;
   for (const SqueezedVein& vein : causes.veins) n += vein_source(vein, made.source[n]) ? 1 : 0;
   made.vein_end = n;
   if (causes.breath) n += breath_source(*causes.breath, made.source[n]) ? 1 : 0;
@@ -199,6 +237,7 @@ Displacement without_presses(const Displacement& displacement) noexcept {
   const int presses = displacement.contact_end;
   left.tip_end = displacement.tip_end - presses;
   left.shaft_end = displacement.shaft_end - presses;
+  left.organ_end = displacement.organ_end - presses;
   left.vein_end = displacement.vein_end - presses;
   left.breath_end = displacement.breath_end - presses;
   for (int i = 0; i < left.breath_end; ++i) left.source[i] = displacement.source[i + presses];

@@ -11,6 +11,7 @@
 
 #include "shaders/shared/displacement_source.glsl.h"
 #include "sim/tissue/breathing.h"
+#include "sim/volume/classes.h"
 
 namespace seldinger::tissue {
 
@@ -34,6 +35,8 @@ struct NeedleDrag {
   double tip_n = 0.0;                    // force of the tip on the tissue before it,
   double tip_mm = 0.0;                   // which it has pushed so far
   double shaft_mm = 0.0;                 // how far the shaft drags the tissue along; < 0 on the way out
+  volume::TissueClass organ = volume::TissueClass::air;  // that the tip presses on, or is in,
+  double organ_n = 0.0;                                  // and how hard; 0: none
 };
 
 // A straight piece of a vein that gives way to pressure.
@@ -41,6 +44,14 @@ struct SqueezedVein {
   glm::dvec3 from_lps_mm{0.0}, to_lps_mm{0.0};
   double radius_mm = 0.0;   // at rest, > 0
   double area_share = 1.0;  // of its area that is left, 0 to 1
+};
+
+// An organ that is pressed goes along and turns as a whole.
+struct PushedOrgan {
+  glm::dvec3 middle_lps_mm{0.0};
+  double radius_mm = 0.0;     // of the ball of its volume, > 0
+  glm::dvec3 at_lps_mm{0.0};  // at rest, where it is pressed,
+  glm::dvec3 force_n{0.0};    // and how
 };
 
 struct Breath {
@@ -55,6 +66,7 @@ struct Causes {
   std::optional<NeedleDrag> needle{};     //
   std::span<const SqueezedVein> veins{};  // at most kMostVeins (CHECKed)
   std::optional<Breath> breath{};         // nothing where the patient does not breathe
+  std::optional<PushedOrgan> organ{};     // then one press less (CHECKed)
 };
 
 // What does not move anything makes no source. Bounded, so that no tissue is folded: a press counts no deeper than

@@ -128,6 +128,24 @@ TEST(RenderXray, ScatterIsAPedestalThatAGridAndANarrowFieldTakeAway) {
   EXPECT_NE(refused.ran.err.find("scatter"), std::string::npos) << refused.ran.err;
 }
 
+// A twentieth of the mean lies on every pixel, and as much less of its own.
+TEST(RenderXray, GlareVeilsWhatIsNoLineIntegral) {
+  Json scene = water_scene();
+  scene["needle"] = {{"tip_mm", {0, 0, 0}}, {"direction", {1, 0, 0}}, {"length_mm", 30}, {"radius_mm", 5}};
+  scene["view"]["output"] = "intensity";
+  const Picture clear = render(scene);
+  double mean = 0.0;
+  for (const float value : clear.values)
+    mean += static_cast<double>(value) / static_cast<double>(clear.values.size());
+  scene["view"]["glare_percent"] = 5;
+  const Picture veiled = render(scene);
+  ASSERT_EQ(veiled.ran.exit_code, 0) << veiled.ran.err;
+  for (const int column : {0, 13, 32, 64})
+    EXPECT_NEAR(veiled.at(column, 32), 0.95 * clear.at(column, 32) + 0.05 * mean, 1e-5) << column;
+  scene["view"]["output"] = "line_integral";
+  EXPECT_EQ(render(scene).ran.exit_code, 3);
+}
+
 TEST(RenderXray, NeedleAndLesionAreTheirChords) {
   Json scene = water_scene();
   scene["needle"] = {{"tip_mm", {0, 0, 0}}, {"direction", {1, 0, 0}}, {"length_mm", 30}, {"radius_mm", 0.635}};

@@ -144,6 +144,10 @@ TEST_F(TrainRoomTest, WhatIsSaidShowsThatItIsDoneAndWhatItDid) {
   EXPECT_TRUE(comes("✓ F4"));
   press("F6");
   EXPECT_TRUE(comes("nicked where the needle points")) << now();
+  press("slash");
+  EXPECT_TRUE(comes("In your hand is the needle’s introducer, its stylet in: it is wider.")) << now();
+  press("slash");
+  EXPECT_TRUE(comes("The introducer is put aside.")) << now();
   press("F7");
   EXPECT_TRUE(comes("Now the breath is held")) << now();
   press("F8");

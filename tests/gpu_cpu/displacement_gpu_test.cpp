@@ -115,12 +115,17 @@ class DisplacementOnGpu : public testing::Test {
 // The goal: at most 1e-3 mm on 10^5 points.
 TEST_F(DisplacementOnGpu, IsTheCpusToAMicron) {
   const Scene s = scene();
-  const std::array<std::pair<const char*, Displacement>, 6> each{
+  const std::array<std::pair<const char*, Displacement>, 7> each{
       {{"press over bone", displacement_of({.presses = {&s.presses[0], 1}})},
        {"press", displacement_of({.presses = {&s.presses[1], 1}})},
        {"needle", displacement_of({.needle = s.needle})},
        {"veins", displacement_of({.veins = s.veins})},
        {"breath", displacement_of({.breath = s.breath})},
+       {"organ", displacement_of({.needle = s.needle,
+                                  .organ = tissue::PushedOrgan{kMiddle + glm::dvec3(10, -20, -50),
+                                                               35.0,
+                                                               kMiddle + glm::dvec3(22, -48, -54),
+                                                               {-0.6, 2.0, 0.2}}})},
        {"all", displacement_of({.presses = s.presses, .needle = s.needle, .veins = s.veins, .breath = s.breath})}}};
   for (std::size_t i = 0; i < each.size(); ++i) {
     const double apart = apart_mm(each[i].second, i + 1);
@@ -156,11 +161,10 @@ TEST(DisplacementParameters, HaveTheOffsetsOfTheShadersBlocks) {
   ASSERT_EQ(files.size(), 1U);
   using D = shaders::Displacement;
   using P = shaders::DisplacementPoints;
-  const std::map<std::string, std::size_t> counts{{"contact_end", offsetof(D, contact_end)},
-                                                  {"tip_end", offsetof(D, tip_end)},
-                                                  {"shaft_end", offsetof(D, shaft_end)},
-                                                  {"vein_end", offsetof(D, vein_end)},
-                                                  {"breath_end", offsetof(D, breath_end)}};
+  const std::map<std::string, std::size_t> counts{
+      {"contact_end", offsetof(D, contact_end)}, {"tip_end", offsetof(D, tip_end)},
+      {"shaft_end", offsetof(D, shaft_end)},     {"organ_end", offsetof(D, organ_end)},
+      {"vein_end", offsetof(D, vein_end)},       {"breath_end", offsetof(D, breath_end)}};
   EXPECT_EQ(offsets_from_compiler(files[0], "displacement"), counts);
   // Of the first source; the array's stride is its size, a multiple of 16.
   using S = shaders::DisplacementSource;

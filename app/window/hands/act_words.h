@@ -21,9 +21,11 @@ std::string fired_answer(const cases::Instrument& instrument);
 // What an answer to what was said depends on.
 struct Said {
   cases::EventKind kind = cases::EventKind::none;
-  double planned_mm = 0.0;  // of note_plan; 0: without
-  bool flipped = false;     // the picture: its marker is on the right
-  bool needle_in = false;   // in the body
+  double planned_mm = 0.0;           // of note_plan; 0: without
+  bool flipped = false;              // the picture: its marker is on the right
+  bool needle_in = false;            // in the body
+  bool core = false;                 // the needle is one: what has a stylet is its introducer
+  haptics::Introducer introducer{};  // before it was said
 };
 std::string said_words(const Said& said);
 // Of the newest place that is numb; CHECKs that there is one.

@@ -158,6 +158,7 @@ void DeskHands::feel(const engine::Tick& tick, const engine::TickState& now, dou
   for (haptics::HandInput& hand : felt) {
     tick.bring_to_rest(now, hand);
     hand.nicks_lps_mm = engine::nicks_of(now.patient);
+    hand.introducer = now.introducer;
   }
   desk_->send(forces_->advance(felt, elapsed_s, felt_), elapsed_s);
   for (std::size_t side = 0; side < 2; ++side)

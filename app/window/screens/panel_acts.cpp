@@ -21,7 +21,7 @@ struct Saying {
   const char* label;
   EventKind kind;
 };
-constexpr std::array<Saying, 9> kSayings = {{
+constexpr std::array<Saying, 10> kSayings = {{
     {kF1, "F1  Probe checked", EventKind::probe_checked},
     {kF1 + 1, "F2  Entry and depth noted", EventKind::note_plan},
     {kF1 + 2, "F3  Aspirate", EventKind::aspirate},
@@ -29,6 +29,7 @@ constexpr std::array<Saying, 9> kSayings = {{
     {'/', "/  Stylet out, in", EventKind::stylet_out},
     {'\\', "\\  Inject contrast", EventKind::inject},
     {kF1 + 5, "F6  Nick the skin", EventKind::nick},
+    {'/', "/  Introducer", EventKind::stylet_in},
     {kF1 + 6, "F7  Hold your breath", EventKind::breath_hold_request},
     {kF1 + 7, "F8  Breathe again", EventKind::breathe_again},
 }};
@@ -39,7 +40,8 @@ bool asked_for(const Saying& saying, const cases::Case& scene) {
   if (scene.subject == cases::Subject::phantom) return false;
   if (saying.kind == EventKind::stylet_out || saying.kind == EventKind::inject)
     return scene.instrument.kind == cases::InstrumentKind::access;
-  if (saying.kind == EventKind::nick) return scene.instrument.kind == cases::InstrumentKind::core;
+  if (saying.kind == EventKind::nick || saying.kind == EventKind::stylet_in)
+    return scene.instrument.kind == cases::InstrumentKind::core;
   return true;
 }
 
@@ -77,14 +79,19 @@ void ActsPanel::answer(const Seen& seen, const std::string& words) {
 
 void ActsPanel::say(PersonAttempt& attempt, const Seen& seen, bool flipped, EventKind kind) {
   const cases::NeedleState& needle = seen.moment.state.needle;
-  if (kind == EventKind::stylet_out && seen.moment.state.flow.stylet_out) kind = EventKind::stylet_in;
+  const bool core = attempt.task()->scene.instrument.kind == cases::InstrumentKind::core;
+  const haptics::Introducer introducer = seen.moment.introducer;
+  if (kind == EventKind::stylet_out && seen.moment.state.flow.stylet_out)
+    kind = EventKind::stylet_in;
+  else if (core && kind == EventKind::stylet_in && introducer == haptics::Introducer::closed)
+    kind = EventKind::stylet_out;
   double length_mm = 0.0;
   if (kind == EventKind::note_plan) length_mm = planned_mm_;
   if ((kind == EventKind::anaesthetic || kind == EventKind::aspirate) && needle.skin.in_body)
     length_mm = needle.inserted_mm;
   if (!attempt.say(kind, length_mm)) return answer(seen, "Too much at once: say it again.");
   ++done_[kind];
-  std::string words = said_words({kind, length_mm, flipped, needle.skin.in_body});
+  std::string words = said_words({kind, length_mm, flipped, needle.skin.in_body, core, introducer});
   if (words.empty())
     if (const cases::EventInfo* info = cases::find_event(kind)) words = info->words;  // a mentor's
   answer(seen, words);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "app/window/screens/panel_monitor.h"
 #include "app/window/screens/panels.h"
@@ -79,6 +80,7 @@ void MonitorPanel::tell(session::Monitor& monitor) const {
   if (kind_.modality == cases::Modality::ultrasound)
     monitor.set_console([knobs = knobs_](imaging::Console& console) { knobs.apply(console); });
   if (kind_.modality == cases::Modality::mpr) monitor.set_window(session::kHuWindows[knobs_.window]);
+  if (kind_.modality == cases::Modality::xray) monitor.set_panel(static_cast<imaging::Panel>(panel_));
 }
 
 void MonitorPanel::read_keys(session::Monitor& monitor, bool frozen, bool watched, const Keys& keys) {
@@ -305,7 +307,7 @@ void MonitorPanel::expose_automatically(bool automatic, cases::FluoroscopeInputs
   asked.automatic_exposure = automatic;
 }
 
-void MonitorPanel::draw_fluoroscope(cases::FluoroscopeInputs& asked) {
+void MonitorPanel::draw_fluoroscope(session::Monitor& monitor, cases::FluoroscopeInputs& asked) {
   const float all = ImGui::GetContentRegionAvail().x;
   const bool one_row = in_two_rows(all);
   const float wide = one_row ? 0.48F * all : all;
@@ -325,7 +327,7 @@ void MonitorPanel::draw_fluoroscope(cases::FluoroscopeInputs& asked) {
   if (one_row) ImGui::SameLine();
   // Pulse rate, field and collimator.
   static constexpr const char* kRates[] = {"3 /s", "7.5 /s", "15 /s"};
-  ImGui::SetNextItemWidth(0.20F * wide);
+  ImGui::SetNextItemWidth(0.16F * wide);
   ImGui::Combo("##rate", &asked.pulse_rate, kRates, 3);
   tip("pulses a second (, .): each costs dose");
   ImGui::SameLine();
@@ -333,14 +335,22 @@ void MonitorPanel::draw_fluoroscope(cases::FluoroscopeInputs& asked) {
   for (std::size_t i = 0; i < fields.size(); ++i)
     std::snprintf(fields[i], sizeof fields[i], "%.0f cm", 0.1 * machine_.field_side_mm[i]);
   const char* const names[] = {fields[0], fields[1], fields[2]};
-  ImGui::SetNextItemWidth(0.20F * wide);
+  ImGui::SetNextItemWidth(0.16F * wide);
   ImGui::Combo("##field", &asked.magnification, names, 3);
   tip("field (9 0): a smaller one is magnified, at more dose to the skin");
   ImGui::SameLine();
-  knob("##across", asked.collimator.open_u, cases::kCollimatorMin, 1.0, "across %.2f", 0.25F * wide);
+  knob("##across", asked.collimator.open_u, cases::kCollimatorMin, 1.0, "across %.2f", 0.21F * wide);
   tip("collimator ([ ] both): what is shut off gets no dose, and blurs nothing");
   ImGui::SameLine();
-  knob("##along", asked.collimator.open_v, cases::kCollimatorMin, 1.0, "along %.2f", 0.25F * wide);
+  knob("##along", asked.collimator.open_v, cases::kCollimatorMin, 1.0, "along %.2f", 0.21F * wide);
+  ImGui::SameLine();
+  static constexpr const char* kPanels[] = {"ideal", "flat panel", "intensifier"};
+  static_assert(std::size(kPanels) == imaging::kPanelNames.size());
+  ImGui::SetNextItemWidth(0.17F * wide);
+  if (ImGui::Combo("##panel", &panel_, kPanels, static_cast<int>(std::size(kPanels)))) tell(monitor);
+  note_item("panel");
+  tip("detector: an ideal one; a flat panel, in which 5 % of the picture before is left; an image intensifier, "
+      "whose glare veils 5 %");
   if (asked.automatic_exposure) return;
   // Technique, by hand.
   knob("##kv", asked.kv, machine_.kv_min, machine_.kv_max, "%.0f kV", 0.48F * wide);

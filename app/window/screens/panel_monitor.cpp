@@ -327,7 +327,7 @@ void MonitorPanel::draw_console(session::Monitor& monitor, const Seen& seen, Han
   cases::FluoroscopeInputs asked = asked_of(told);
   if (kind_.modality == cases::Modality::xray) {
     ImGui::BeginDisabled(!turns);
-    draw_fluoroscope(asked);
+    draw_fluoroscope(monitor, asked);
     ImGui::EndDisabled();
   }
   if (!turns) return;

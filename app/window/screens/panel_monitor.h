@@ -65,7 +65,7 @@ class MonitorPanel {
   void draw_slices(session::Monitor& monitor, bool frozen, bool turns);
   void read_fluoroscope(const Keys& keys, cases::FluoroscopeInputs& asked) const;
   void expose_automatically(bool automatic, cases::FluoroscopeInputs& asked) const;
-  void draw_fluoroscope(cases::FluoroscopeInputs& asked);
+  void draw_fluoroscope(session::Monitor& monitor, cases::FluoroscopeInputs& asked);
   cases::FluoroscopeInputs asked_of(const HandsTold* told) const;
   void draw_exposure(const cases::FluoroscopyState& machine);
   void draw_calipers_and_keep(bool calipers);
@@ -79,6 +79,7 @@ class MonitorPanel {
   cases::Fluoroscope machine_;
   cases::FluoroscopyState machine_state_;
   ConsoleKnobs knobs_;
+  int panel_ = 0;  // imaging::Panel
   Calipers calipers_;
   std::optional<double> measured_mm_;  // not yet taken
   bool measuring_ = false, frozen_ = false;

@@ -37,6 +37,30 @@ double pushed_mm(const HeldNeedleState& state) noexcept {
   return std::max(0.0, to_mm - state.track.cut_mm);
 }
 
+// What lies in an organ is of it.
+bool lies_in_organ(volume::TissueClass tissue) noexcept {
+  return static_cast<std::size_t>(tissue) >= volume::kTissueClasses || tissue == volume::TissueClass::vessel ||
+         tissue == volume::TissueClass::fluid;
+}
+bool is_organ(volume::TissueClass tissue) noexcept {
+  return tissue == volume::TissueClass::liver || tissue == volume::TissueClass::kidney ||
+         tissue == volume::TissueClass::spleen;
+}
+
+// The organ that the tip is in takes its force; else one whose capsule it presses on.
+void press_organ(const NeedleForce& along, const HeldNeedleState& state, tissue::NeedleDrag& drag) noexcept {
+  const NeedlePath& path = state.path;
+  std::size_t in = state.track.opened;
+  while (in > 0 && lies_in_organ(path.tissues[in - 1])) --in;
+  if (in > 0 && is_organ(path.tissues[in - 1])) {
+    drag.organ = path.tissues[in - 1];
+    drag.organ_n = along.tip_n;
+  } else if (state.track.opened < path.count && is_organ(path.tissues[state.track.opened])) {
+    drag.organ = path.tissues[state.track.opened];
+    drag.organ_n = along.capsule_n;
+  }
+}
+
 void leave(HeldNeedleState& state) noexcept {
   // A hole stays where it is; a dent does not.
   if (state.track.opened == 0) state.track = {};
@@ -66,8 +90,27 @@ std::span<const cases::Lesion> felt_lesions(const cases::Case& scene) {
 
 HeldNeedle::HeldNeedle(const cases::Case& scene)
     : scene_(&scene),
-      gauge_(gauge_of(scene.instrument)),
-      tissue_(scene.volume, scene.classes, gauge_, felt_lesions(scene), scene.touch) {}
+      needle_{gauge_of(scene.instrument), scene.touch},
+      introducer_(introducer_for(needle_)),
+      along_needle_(scene.volume, scene.classes, needle_.gauge, felt_lesions(scene), needle_.touch),
+      along_introducer_(scene.volume, scene.classes, introducer_.gauge, felt_lesions(scene), introducer_.touch) {}
+
+const FeltNeedle& HeldNeedle::felt(Introducer introducer) const noexcept {
+  return introducer == Introducer::closed ? introducer_ : needle_;
+}
+
+void HeldNeedle::exchange(Introducer introducer, HeldNeedleState& state) const noexcept {
+  if (introducer == state.introducer) return;
+  for (std::size_t i = 0; i < state.path.count; ++i) {
+    NeedleTissue& tissue = state.path.layers[i].tissue;
+    tissue = felt_instead(tissue, felt(state.introducer), felt(introducer));
+  }
+  // It stays as deep as it has cut its way.
+  state.track.sheath_mm =
+      introducer == Introducer::open ? inserted_mm(state.path.span(), state.depth_mm, state.track) : 0.0;
+  state.track.exchanged = true;
+  state.introducer = introducer;
+}
 
 double skin_share(const glm::dvec3& p_lps_mm, std::span<const glm::dvec3> nicks_lps_mm) noexcept {
   double share = 1.0;
@@ -87,6 +130,7 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
                                     const NeedleSideLaw& side_law, std::span<const glm::dvec3> nicks_lps_mm,
                                     HeldNeedleState& state) const noexcept {
   const glm::dvec3& tip_lps_mm = pose.position_lps_mm;
+  const TissueAlongNeedle& tissue = state.introducer == Introducer::closed ? along_introducer_ : along_needle_;
   const double on_line_mm = glm::dot(tip_lps_mm - state.entry_lps_mm, state.direction);
   // In its track, it is in the body: the skin, costly to ask from deep below, is asked again at the hole.
   const bool in_track = !state.outside && state.track.opened > 0 && on_line_mm > 0.0;
@@ -121,22 +165,22 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
     state.entry_lps_mm = tip_lps_mm - state.depth_mm * pose.axis;
     if (--state.ticks_to_look <= 0) {
       state.path.count = 0;
-      tissue_.look(state.entry_lps_mm, state.direction, kAheadMm, 0.0, state.track, state.path);
+      tissue.look(state.entry_lps_mm, state.direction, kAheadMm, 0.0, state.track, state.path);
       state.ticks_to_look = kTicksBetweenLooks;
       state.looked_mm = 0.0;  // of another line than the one that opens
     }
     if (!nicks_lps_mm.empty()) {
       const double share = skin_share(state.entry_lps_mm, nicks_lps_mm);
       NeedleTissue& skin = state.path.layers[0].tissue;
-      skin.rupture_n = share * tissue_.skin().rupture_n;
-      skin.intercept_n = share * tissue_.skin().intercept_n;
+      skin.rupture_n = share * tissue.skin().rupture_n;
+      skin.intercept_n = share * tissue.skin().intercept_n;
     }
   } else {
     state.depth_mm = on_line_mm;
     const double reached_mm = std::max(state.depth_mm, state.track.cut_mm);
     if (reached_mm + 0.5 * kAheadMm > state.looked_mm) {
       state.looked_mm = reached_mm + kAheadMm;
-      tissue_.look(state.entry_lps_mm, state.direction, state.looked_mm, state.depth_mm, state.track, state.path);
+      tissue.look(state.entry_lps_mm, state.direction, state.looked_mm, state.depth_mm, state.track, state.path);
     }
   }
 
@@ -146,13 +190,15 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
   glm::dvec3 shift_mm = tip_lps_mm - state.depth_mm / turned * pose.axis - state.entry_lps_mm;
   shift_mm -= glm::dot(shift_mm, state.direction) * state.direction;
   const double in_tissue_mm = inserted_mm(state.path.span(), state.depth_mm, state.track);
-  state.drag = {.entry_lps_mm = state.entry_lps_mm,
+  // What drags begins where a sheath ends.
+  state.drag = {.entry_lps_mm = state.entry_lps_mm + state.track.sheath_mm * state.direction,
                 .direction = state.direction,
-                .radius_mm = 0.5 * gauge_.outer_mm,
-                .cut_mm = std::min(state.track.cut_mm, state.depth_mm),
+                .radius_mm = 0.5 * felt(state.introducer).gauge.outer_mm,
+                .cut_mm = std::min(state.track.cut_mm, state.depth_mm) - state.track.sheath_mm,
                 .tip_n = force.along.tip_n,
                 .tip_mm = pushed_mm(state),
                 .shaft_mm = law.dragged_mm(in_tissue_mm, state.track)};
+  press_organ(force.along, state, state.drag);
   force.force_n = side_law.advance(shift_mm, in_tissue_mm, state.side) - force.along.axial_n * state.direction;
   return force;
 }

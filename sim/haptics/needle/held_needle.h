@@ -16,6 +16,11 @@
 
 namespace seldinger::haptics {
 
+// A tube through which a needle goes: with its stylet in, it is what is pushed; with the stylet out, it stays where
+// it stands, and the needle slides in it. One that is left for another hole is forgotten.
+enum class Introducer { none, closed, open };
+inline constexpr int kIntroducers = 3;
+
 // What must be kept from tick to tick. A new one: just taken up. Taken up inside the body it is without force until
 // it has been outside.
 struct HeldNeedleState {
@@ -24,9 +29,10 @@ struct HeldNeedleState {
   NeedlePath path;
   NeedleTrack track;
   NeedleSideTrack side;
-  double depth_mm = 0.0;    // of the tip along the line
-  double looked_mm = 0.0;   // how far along the line the path is known
-  int ticks_to_look = 0;    // while the line still moves
+  double depth_mm = 0.0;   // of the tip along the line
+  double looked_mm = 0.0;  // how far along the line the path is known
+  int ticks_to_look = 0;   // while the line still moves
+  Introducer introducer = Introducer::none;
   bool begun = false;       // `skin` says something
   bool free = false;        // it has been outside
   bool outside = true;      // of skin and track
@@ -44,18 +50,21 @@ class HeldNeedle {
   explicit HeldNeedle(const cases::Case& scene);
 
   // The needle of the scene's instrument: what its side law needs.
-  const cases::Gauge& gauge() const noexcept { return gauge_; }
+  const cases::Gauge& gauge() const noexcept { return needle_.gauge; }
 
   // One tick: position = tip, axis = unit, hub → tip. nicks_lps_mm: where the skin is cut. Allocates nothing.
   HeldNeedleForce advance(const cases::ToolPose& pose, const NeedleLaw& law, const NeedleSideLaw& side_law,
                           std::span<const glm::dvec3> nicks_lps_mm, HeldNeedleState& state) const noexcept;
+  // From the next tick on it is held with, through or without an introducer.
+  void exchange(Introducer introducer, HeldNeedleState& state) const noexcept;
 
  private:
+  const FeltNeedle& felt(Introducer introducer) const noexcept;
   double below_skin_mm(const cases::ToolPose& pose, const cases::SkinPassage& skin) const noexcept;
 
   const cases::Case* scene_;
-  cases::Gauge gauge_;
-  TissueAlongNeedle tissue_;
+  FeltNeedle needle_, introducer_;
+  TissueAlongNeedle along_needle_, along_introducer_;
 };
 
 // What is left of the skin's resistance there: none within a nick, all of it beside.

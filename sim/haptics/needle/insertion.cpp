@@ -29,6 +29,10 @@ std::vector<InsertionSample> insert(const Insertion& insertion, const NeedleSett
   const NeedleLayer layer{0.0, insertion.tissue};
   const NeedleLaw law(settings);
   NeedleTrack track;
+  if (insertion.introducer_mm > 0.0) {
+    track.opened = 1;
+    track.cut_mm = track.sheath_mm = insertion.introducer_mm;
+  }
   std::vector<InsertionSample> samples;
   samples.reserve(static_cast<std::size_t>(last) + 1);
   for (long long i = 0; i <= last; ++i) {

@@ -9,10 +9,11 @@ namespace seldinger::haptics {
 
 struct Insertion {
   NeedleTissue tissue;
-  double speed_mm_s = 0.0;  // > 0
-  double depth_mm = 0.0;    // > 0, from the first touch of the undeformed capsule
-  double hold_s = 0.0;      // at depth_mm
-  bool retract = false;     // back to 0 at the same speed
+  double speed_mm_s = 0.0;     // > 0
+  double depth_mm = 0.0;       // > 0, from the first touch of the undeformed capsule
+  double hold_s = 0.0;         // at depth_mm
+  bool retract = false;        // back to 0 at the same speed
+  double introducer_mm = 0.0;  // > 0: through one that ends so deep, to which tissue is cut already
 };
 
 struct InsertionSample {

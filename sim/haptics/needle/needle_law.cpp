@@ -26,6 +26,9 @@ constexpr double kMostFallNS = 100.0;
 // Relaxation: to this part of what slides or cuts, with this time (our judgement, within 5-20 s).
 constexpr double kRelaxedPart = 0.65, kRelaxationS = 10.0;
 
+// Steel in a steel tube, wet: next to what tissue holds (design).
+constexpr double kSheathFrictionN = 0.05, kSheathStiffnessNMm = 0.1;
+
 // The faster, the less a capsule bears, down to a bound (Mahvash and Dupont, IEEE ICRA 2009, PMC3051196, read; IEEE
 // TBME 2010, recalled: porcine heart); by how much a decade, and between which speeds, is design.
 constexpr double kLessADecade = 0.15;
@@ -37,11 +40,12 @@ double next_start_mm(Path path, const NeedleTrack& track) noexcept {
 }
 
 double friction_limit_n(Path path, double length_mm, const NeedleTrack& track) noexcept {
-  double limit_n = 0.0;
+  double limit_n = track.sheath_mm > 0.0 ? kSheathFrictionN : 0.0;
   for (std::size_t i = 0; i < track.opened; ++i) {
     const double end_mm = path[0].start_mm + length_mm;
+    const double from_mm = std::max(path[i].start_mm, path[0].start_mm + track.sheath_mm);
     const double to_mm = i + 1 < path.size() ? std::min(path[i + 1].start_mm, end_mm) : end_mm;
-    if (to_mm > path[i].start_mm) limit_n += path[i].tissue.slope_n_mm * (to_mm - path[i].start_mm);
+    if (to_mm > from_mm) limit_n += path[i].tissue.slope_n_mm * (to_mm - from_mm);
   }
   return limit_n;
 }
@@ -49,7 +53,7 @@ double friction_limit_n(Path path, double length_mm, const NeedleTrack& track) n
 }  // namespace
 
 NeedleSettings of_law(NeedleSettings settings, cases::TouchLaw law) noexcept {
-  settings.relaxation = settings.rupture_by_speed = law == cases::TouchLaw::by_speed;
+  settings.relaxation = settings.rupture_by_speed = law != cases::TouchLaw::steady;
   return settings;
 }
 
@@ -92,13 +96,15 @@ double NeedleLaw::opens_at_n(const NeedleTissue& tissue, const NeedleTrack& trac
   return settings_.rupture_by_speed ? tissue.rupture_n * rupture_share(track.speed_mm_s) : tissue.rupture_n;
 }
 
-double NeedleLaw::shaft_stiffness_n_mm(double length_mm) const noexcept {
-  return std::min(kShaftStiffnessNMm2 * length_mm, kShaftShare * settings_.stiffness_n_mm);
+double NeedleLaw::shaft_stiffness_n_mm(double length_mm, const NeedleTrack& track) const noexcept {
+  const double bare_mm = std::max(0.0, length_mm - track.sheath_mm);
+  const double sheath_n_mm = track.sheath_mm > 0.0 ? kSheathStiffnessNMm : 0.0;
+  return std::min(sheath_n_mm + kShaftStiffnessNMm2 * bare_mm, kShaftShare * settings_.stiffness_n_mm);
 }
 
 double NeedleLaw::dragged_mm(double length_mm, const NeedleTrack& track) const noexcept {
-  const double stiffness_n_mm = shaft_stiffness_n_mm(length_mm);
-  return stiffness_n_mm > 0.0 ? track.shaft_n / stiffness_n_mm : 0.0;
+  const double stiffness_n_mm = shaft_stiffness_n_mm(length_mm, track);
+  return stiffness_n_mm > 0.0 && length_mm > track.sheath_mm ? track.shaft_n / stiffness_n_mm : 0.0;
 }
 
 double NeedleLaw::tip_force_n(Path path, double depth_mm, const NeedleTrack& track) const noexcept {
@@ -114,7 +120,7 @@ double NeedleLaw::tip_force_n(Path path, double depth_mm, const NeedleTrack& tra
   const NeedleLayer& next = path[track.opened];
   const double dent_mm = stretch_mm - reach_mm;
   const double beside_shaft_n_mm =
-      settings_.stiffness_n_mm - shaft_stiffness_n_mm(next.start_mm - path[0].start_mm);
+      settings_.stiffness_n_mm - shaft_stiffness_n_mm(next.start_mm - path[0].start_mm, track);
   if (next.tissue.impenetrable) return force_n + beside_shaft_n_mm * dent_mm;
   if (!(next.tissue.rupture_n > 0.0)) return force_n;
   const double full_dent_mm =
@@ -137,7 +143,7 @@ void NeedleLaw::slide(Path path, double depth_mm, NeedleTrack& track) const noex
   const double length_mm = inserted_mm(path, depth_mm, track);
   const double limit_n = friction_limit_n(path, length_mm, track);
   const double moved_mm = track.begun ? depth_mm - track.last_depth_mm : 0.0;
-  track.shaft_n = std::clamp(track.shaft_n + shaft_stiffness_n_mm(length_mm) * moved_mm, -limit_n, limit_n);
+  track.shaft_n = std::clamp(track.shaft_n + shaft_stiffness_n_mm(length_mm, track) * moved_mm, -limit_n, limit_n);
   if (!settings_.relaxation) return;
   const double kept_n = std::clamp(track.shaft_n, -kRelaxedPart * limit_n, kRelaxedPart * limit_n);
   track.shaft_n -= settings_.tick_s / kRelaxationS * (track.shaft_n - kept_n);
@@ -149,12 +155,15 @@ NeedleForce NeedleLaw::advance(Path path, double depth_mm, NeedleTrack& track) c
   if (track.opened == 0 && !path.empty()) track.cut_mm = path[0].start_mm;
   if (track.opened > 0) cut(path, depth_mm, track);
   force.tip_n = path.empty() ? 0.0 : tip_force_n(path, depth_mm, track);
+  if (track.opened > 0 && track.cut_mm >= next_start_mm(path, track))
+    force.capsule_n = std::max(0.0, force.tip_n - tip_of(path[track.opened - 1].tissue).limit_n);
   const double moved_mm = track.begun ? depth_mm - track.last_depth_mm : 0.0;
   track.speed_mm_s += speed_share_ * (moved_mm / settings_.tick_s - track.speed_mm_s);
 
   if (track.opened < path.size() && !path[track.opened].tissue.impenetrable && depth_mm > track.cut_mm &&
       track.cut_mm >= path[track.opened].start_mm && force.tip_n >= opens_at_n(path[track.opened].tissue, track)) {
     force.ruptured = true;
+    force.capsule_n = 0.0;
     const double held_n = force.tip_n + track.shaft_n + track.damper_n;
     ++track.opened;
     cut(path, depth_mm, track);
@@ -169,7 +178,10 @@ NeedleForce NeedleLaw::advance(Path path, double depth_mm, NeedleTrack& track) c
 
   // On how fast the springs load: zero while the needle cuts and slides, whatever its speed.
   const double elastic_n = force.tip_n + track.shaft_n;
-  const double change_n = force.ruptured || !track.begun ? 0.0 : elastic_n - track.last_elastic_n;
+  const bool springs_load = track.begun && !force.ruptured && !track.exchanged;
+  const double change_n = springs_load ? elastic_n - track.last_elastic_n : 0.0;
+  if (track.exchanged && track.begun && !force.ruptured) track.falling_n += track.last_elastic_n - elastic_n;
+  track.exchanged = false;
   track.damper_n = damper_.advance(track.damper_n, change_n);
 
   force.shaft_n = track.shaft_n;

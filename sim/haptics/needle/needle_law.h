@@ -4,7 +4,8 @@
 // is reached (Dahl's model of order 0). Nothing depends on speed but a damper on how fast these springs load, so a
 // force is the same at any speed and stays at rest; where it is asked for, what is held relaxes, and a capsule
 // opens at less the faster it is pushed (docs/decisions/0088). Out of the track, only friction pulls back; into it
-// again, nothing is cut that was cut. Only + − × ÷, roots and exact_log: the same bits everywhere.
+// again, nothing is cut that was cut. In an introducer's tube the shaft slides nearly free. Only + − × ÷, roots and
+// exact_log: the same bits everywhere.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +49,9 @@ struct NeedleTrack {
   double shaft_n = 0.0, falling_n = 0.0, damper_n = 0.0;
   double last_depth_mm = 0.0, last_elastic_n = 0.0;
   double speed_mm_s = 0.0;  // of the tip along the path, smoothed
+  double sheath_mm = 0.0;   // from the path's start on, of the needle that slides in an introducer's tube; 0: none
   bool begun = false;       // false: last_* say nothing yet
+  bool exchanged = false;   // another needle since the last tick: what the last one held falls
 };
 
 // Newtons; > 0 resists insertion.
@@ -58,7 +61,8 @@ struct NeedleForce {
   double shaft_n = 0.0;
   double falling_n = 0.0;  // what is left of the fall after a rupture; decays within some 50 ms
   double damper_n = 0.0;
-  bool ruptured = false;  // the tip entered a layer in this tick: the declared event
+  double capsule_n = 0.0;  // what of tip_n is on the capsule that is to open next, ≥ 0
+  bool ruptured = false;   // the tip entered a layer in this tick: the declared event
 };
 
 class NeedleLaw {
@@ -70,7 +74,7 @@ class NeedleLaw {
   // but for the layers that the track has entered (CHECKed to be there). Allocates nothing.
   NeedleForce advance(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
 
-  // How far the shaft, inserted by length_mm, drags the tissue along now; < 0 on the way out.
+  // How far the shaft, inserted by length_mm, drags the tissue along now, beyond a sheath; < 0 on the way out.
   double dragged_mm(double length_mm, const NeedleTrack& track) const noexcept;
 
  private:
@@ -78,7 +82,7 @@ class NeedleLaw {
 
   Tip tip_of(const NeedleTissue& tissue) const noexcept;
   double opens_at_n(const NeedleTissue& tissue, const NeedleTrack& track) const noexcept;
-  double shaft_stiffness_n_mm(double length_mm) const noexcept;
+  double shaft_stiffness_n_mm(double length_mm, const NeedleTrack& track) const noexcept;
   double tip_force_n(std::span<const NeedleLayer> path, double depth_mm, const NeedleTrack& track) const noexcept;
   void cut(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
   void slide(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;

@@ -68,6 +68,8 @@ constexpr std::array<NeedleTipRow, cases::kNeedleTipNames.size()> kTips{{
 // doi 10.1115/1.4030374, abstract read).
 constexpr double kTornPart = 0.61 / (0.61 + 0.18);
 
+constexpr double kIntroducerWallsMm = 0.2;  // both: 1.473 mm about 1.270 mm
+
 NeedleTissue scaled(NeedleTissue tissue, double ratio) {
   tissue.slope_n_mm *= ratio;
   tissue.intercept_n *= ratio;
@@ -127,6 +129,25 @@ NeedleTissue felt_by(const NeedleTissue& tissue, const cases::Gauge& gauge, cons
   felt.rupture_n *= tip.rupture * wide;
   felt.tip_stiffness_n_mm *= wide;
   return felt;
+}
+
+NeedleTissue felt_instead(const NeedleTissue& felt, const FeltNeedle& by, const FeltNeedle& instead) {
+  constexpr NeedleTissue kUnit{1.0, 1.0, 1.0, 1.0, 1.0};
+  const NeedleTissue was = felt_by(kUnit, by.gauge, by.touch);
+  const NeedleTissue is = felt_by(kUnit, instead.gauge, instead.touch);
+  NeedleTissue now = felt;
+  now.slope_n_mm *= is.slope_n_mm / was.slope_n_mm;
+  now.intercept_n *= is.intercept_n / was.intercept_n;
+  now.tip_stiffness_n_mm *= is.tip_stiffness_n_mm / was.tip_stiffness_n_mm;
+  now.rupture_n *= is.rupture_n / was.rupture_n;
+  return now;
+}
+
+FeltNeedle introducer_for(const FeltNeedle& needle) {
+  FeltNeedle introducer = needle;
+  introducer.gauge = {0, needle.gauge.outer_mm + kIntroducerWallsMm, 0.0};
+  introducer.touch.tip = cases::NeedleTip::trocar;
+  return introducer;
 }
 
 NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge) {

@@ -59,6 +59,16 @@ NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge);
 // parts. What is torn grows with the blade, so with the diameter, what is spread with its square; a capsule opens
 // by being torn alone; friction grows with the circumference. Each as the tip's row says.
 NeedleTissue felt_by(const NeedleTissue& tissue, const cases::Gauge& gauge, const cases::Touch& touch);
+// A needle, as far as touch tells it from others.
+struct FeltNeedle {
+  cases::Gauge gauge;
+  cases::Touch touch;
+};
+// A tissue that one needle feels so, as another feels it.
+NeedleTissue felt_instead(const NeedleTissue& felt, const FeltNeedle& by, const FeltNeedle& instead);
+// What stands about a needle that goes through an introducer, the introducer's stylet being in: 17 G about 18 G,
+// 0.2 mm wider (catalogues of coaxial sets), with a trocar's point (design).
+FeltNeedle introducer_for(const FeltNeedle& needle);
 // The other way round: what was measured with that gauge, as a row of the table.
 NeedleTissue at_table_gauge(const NeedleTissue& measured, const cases::Gauge& gauge);
 

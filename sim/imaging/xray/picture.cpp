@@ -59,6 +59,45 @@ SELDINGER_FOR_AVX2_TOO void grey_row(const float* log_signal, int count, float l
   }
 }
 
+// Of the open field, from quanta to their logarithm. One thread: a sum has one order.
+void add_flaws(const PanelFlaws& flaws, double field_side_mm, float log_open, FluoroscopyPicture& picture) {
+  const OpenField& open = picture.open;
+  const auto over_open = [&](const auto& each) {
+    for (int row = open.first_row; row < open.end_row; ++row) {
+      const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width_px);
+      for (int column = open.first_column; column < open.end_column; ++column)
+        each(first + static_cast<std::size_t>(column));
+    }
+  };
+  std::vector<float>& quanta = picture.log_signal;
+  if (flaws.glare_share > 0.0) {
+    double sum = 0.0, count = 0.0;
+    over_open([&](std::size_t i) {
+      sum += static_cast<double>(quanta[i]);
+      count += 1.0;
+    });
+    const auto veil = static_cast<float>(flaws.glare_share * sum / std::max(count, 1.0));
+    const auto kept = static_cast<float>(1.0 - flaws.glare_share);
+    over_open([&](std::size_t i) { quanta[i] = kept * quanta[i] + veil; });
+  }
+  if (flaws.lag_share > 0.0) {
+    const bool first = picture.lagging.size() != quanta.size() || picture.lagging_field_mm != field_side_mm;
+    if (first) picture.lagging.assign(quanta.size(), 0.0F);
+    picture.lagging_field_mm = field_side_mm;
+    const auto lag = static_cast<float>(first ? 0.0 : flaws.lag_share);
+    over_open([&](std::size_t i) {
+      quanta[i] += lag * (picture.lagging[i] - quanta[i]);
+      picture.lagging[i] = quanta[i];
+    });
+  } else {
+    picture.lagging.clear();
+  }
+  for (int row = open.first_row; row < open.end_row; ++row)
+    logs_of_quanta(quanta.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width_px) +
+                       static_cast<std::size_t>(open.first_column),
+                   open.end_column - open.first_column, log_open);
+}
+
 }  // namespace
 
 std::vector<float> blur_weights(double sigma_px) {
@@ -212,9 +251,10 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
       for (int k = 1; k <= radius; ++k)
         blur_column_step(blurred_row(row - k), blurred_row(row + k), columns, weights[static_cast<std::size_t>(k)],
                          out);
-      logs_of_quanta(out, columns, log_open);
+      if (!settings.flaws.any()) logs_of_quanta(out, columns, log_open);
     }
   });
+  if (settings.flaws.any()) add_flaws(settings.flaws, field_side_mm, log_open, picture);
   // Grey, by the window asked for or by the picture's own.
   picture.window = settings.window ? *settings.window : window_of(picture.log_signal, width, open);
   over_parts(rows, settings.threads, [&](int first_row, int end_row) {

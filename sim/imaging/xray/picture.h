@@ -1,7 +1,8 @@
 // One fluoroscopy frame: from path lengths to what a person sees. Order: transmission of the spectrum, quantum
 // noise, spread of light in the screen, logarithm, window. Bright is what lets radiation through: bones and needles
 // are dark, as in live fluoroscopy. Behind the collimator's leaves it is black. What the patient scatters lies
-// under it evenly, where the pulse has some. Not modelled: focal spot, lag; read-out noise is added before the
+// under it evenly, where the pulse has some. Last, where they are asked for, veiling glare and lag (panel.h). Not
+// modelled: focal spot; read-out noise is added before the
 // spread of light, after which it belongs, and is small.
 #pragma once
 
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "sim/imaging/xray/exposure.h"
+#include "sim/imaging/xray/panel.h"
 
 namespace seldinger::imaging {
 
@@ -22,6 +24,7 @@ struct PictureSettings {
   std::uint64_t seed = 1, frame = 1;  // of the noise
   std::optional<LogWindow> window;    // else from the open field's content
   bool noise = true;
+  PanelFlaws flaws;
   int threads = 1;  // the picture has the same bits for any number
 };
 
@@ -32,6 +35,9 @@ struct FluoroscopyPicture {
   OpenField open;
   LogWindow window;
   std::vector<float> blurred;  // between two passes; kept so that the next frame allocates nothing
+  // Of a panel that lags: what is still in it of this frame, in quanta, and the field that its pixels span.
+  std::vector<float> lagging;
+  double lagging_field_mm = 0.0;
 };
 
 // `lengths` span the pulse's whole field (field_side_mm of its magnification) at the panel. `picture`'s buffers are

@@ -249,6 +249,18 @@ const std::vector<Fault>& faults() {
        [](auto& s) { s.setting.target->center_lps_mm *= 1.5; },
        kUltrasoundCore,
        {"note_depth", "advance_seen", "keep_off_bone", "hold_before_organ"}},
+      {"the introducer's stylet drawn at the target's edge", "exchange_stylet", done,
+       [](auto& s) {
+         say(s, 0.9, EventKind::stylet_in);
+         say(s, 6.9, EventKind::stylet_out);
+       }},
+      {"the introducer's stylet drawn on the way", "exchange_stylet", skipped,
+       [](auto& s) {
+         say(s, 0.9, EventKind::stylet_in);
+         say(s, 3.9, EventKind::stylet_out);
+       }},
+      {"fired on the introducer's stylet", "exchange_stylet", violated,
+       [](auto& s) { say(s, 0.9, EventKind::stylet_in); }},
       {"on after a cough", "stop_in_trouble", violated, [](auto& s) { say(s, 3.6, EventKind::cough); }},
       {"still after bleeding", "stop_in_trouble", done, [](auto& s) { say(s, 5.5, EventKind::bleeding); }},
       {"no last look", "scan_after", skipped,

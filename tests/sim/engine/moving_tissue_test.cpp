@@ -81,6 +81,48 @@ TEST(MovingTissue, EachHandFindsWhatTheOthersDo) {
   EXPECT_EQ(tissue::count_sources(tissue.seen(state, hands)), 1);
 }
 
+// By the newest law of touch the kidney that the needle presses goes along and turns, the other does not; by the
+// laws of before, which published cases keep, pictures show what they showed, bit for bit.
+TEST(MovingTissue, AnOrganThatIsPressedGivesWayByTheNewestLaw) {
+  cases::Case scene = body();
+  scene.volume = volume::make_volume({61, 31, 31}, glm::dvec3(3.0), glm::dmat3(1.0), {-90.0, -45.0, -45.0});
+  for (int k = 0; k < 31; ++k)
+    for (int j = 0; j < 31; ++j)
+      for (int i = 0; i < 61; ++i) {
+        const glm::dvec3 p = glm::dvec3(i, j, k) * 3.0 - glm::dvec3(90.0, 45.0, 45.0);
+        const bool kidney = glm::length(p - glm::dvec3(p.x < 0.0 ? -50.0 : 50.0, 0.0, 0.0)) < 30.0;
+        scene.classes.push_back(kidney ? volume::TissueClass::kidney : volume::TissueClass::fat);
+      }
+  scene.yields = true;
+  haptics::HandStates hands{};
+  hands[1].tool = haptics::Tool::needle;
+  hands[1].needle.drag = {.entry_lps_mm = {60, -90, 0},
+                          .direction = {0, 1, 0},
+                          .cut_mm = 62.0,
+                          .tip_n = 2.0,
+                          .tip_mm = 7.0,
+                          .organ = volume::TissueClass::kidney,
+                          .organ_n = 2.0};
+  const cases::State state;
+  const auto seen = [&](cases::TouchLaw law) {
+    scene.touch.law = law;
+    return MovingTissue(scene).seen(state, hands);
+  };
+  const tissue::Displacement before = seen(cases::TouchLaw::by_speed), now = seen(cases::kNewestTouchLaw);
+  EXPECT_EQ(tissue::count_sources(before), 1) << "the tip";
+  EXPECT_EQ(tissue::count_sources(now), 2);
+  const auto way = [](const tissue::Displacement& moved, const glm::dvec3& rest_mm) {
+    return tissue::displaced(moved, rest_mm) - rest_mm;
+  };
+  const glm::dvec3 tip_mm(60, -28, 0), far_side_mm(50, 25, 0), other_mm(-50, 0, 0);
+  EXPECT_NEAR(way(now, tip_mm).y, way(before, tip_mm).y, 1e-4) << "tissue at the tip is at the tip";
+  EXPECT_GT(way(now, far_side_mm).y, way(before, far_side_mm).y + 1.5) << "mm, the far side with it";
+  EXPECT_LT(glm::length(way(now, other_mm)), 0.3);
+  EXPECT_GT(way(now, {70, 0, 0}).y, way(now, {30, 0, 0}).y) << "pressed at its side, it turns";
+  hands[1].needle.drag.organ_n = 0.0;
+  EXPECT_EQ(tissue::count_sources(seen(cases::kNewestTouchLaw)), 1) << "on its way there it moves none";
+}
+
 TEST(MovingTissue, ANeedleThatRestsIsMovedThroughTheTissueByBreath) {
   cases::Case scene = body();
   scene.breathing.emplace();

@@ -73,7 +73,7 @@ using Kinds = std::vector<EventKind>;
 // A nick is where the needle points at the skin; by the law of touch of before, nobody felt one.
 TEST(Patient, IsNickedWhereTheNeedlePoints) {
   cases::Case scene = body_with_a_plate();
-  for (const cases::TouchLaw law : {cases::TouchLaw::steady, cases::TouchLaw::by_speed}) {
+  for (const cases::TouchLaw law : {cases::TouchLaw::steady, cases::TouchLaw::by_speed, cases::kNewestTouchLaw}) {
     scene.touch.law = law;
     Trial trial(scene);
     trial.tick(-140.0);

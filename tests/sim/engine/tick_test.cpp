@@ -249,6 +249,42 @@ INSTANTIATE_TEST_SUITE_P(AllModalities, GoesOn,
                                           testing::Values(Tissue::still, Tissue::moving)));
 
 // A recording's hash is of State alone, chained, whatever else there is to be saved.
+// Taken up outside alone, left where its stylet is drawn in tissue, and in the forces from then on; of a needle
+// that is no core needle the same words are its own stylet's.
+TEST(Tick, ACoreNeedlesIntroducerIsTakenUpAndStays) {
+  using haptics::Introducer;
+  const auto course = [](cases::InstrumentKind kind, std::vector<cases::Event> said) {
+    cases::Case scene = ball(cases::Modality::xray, Tissue::still);
+    scene.instrument.kind = kind;
+    const Tick tick(scene);
+    TickState now;
+    std::vector<Introducer> held;
+    double most_n = 0.0;
+    for (int i = 0; i < 2950; ++i) {
+      cases::Inputs inputs = hands_at(now.state.tick);
+      Scenario(said).add_to(inputs, now.state.t_s, now.happened);
+      tick.advance_hands(inputs, {}, now);
+      if (held.empty() || held.back() != now.introducer) held.push_back(now.introducer);
+      most_n = std::max(most_n, now.force->needle_axial_n);
+    }
+    return std::pair(held, most_n);
+  };
+  using Held = std::vector<Introducer>;
+  const auto bare = course(cases::InstrumentKind::core, {});
+  const auto closed = course(cases::InstrumentKind::core, {{0.0, cases::EventKind::stylet_in}});
+  EXPECT_EQ(closed.first, Held{Introducer::closed});
+  EXPECT_GT(closed.second, 1.1 * bare.second) << "it is wider";
+  EXPECT_EQ(course(cases::InstrumentKind::core, {{1.0, cases::EventKind::stylet_in}}).first, Held{Introducer::none})
+      << "the needle is in tissue";
+  EXPECT_EQ(
+      course(cases::InstrumentKind::core, {{0.0, cases::EventKind::stylet_in}, {1.9, cases::EventKind::stylet_out}})
+          .first,
+      (Held{Introducer::closed, Introducer::open}));
+  const auto access = course(cases::InstrumentKind::access, {{0.0, cases::EventKind::stylet_in}});
+  EXPECT_EQ(access.first, Held{Introducer::none});
+  EXPECT_EQ(access.second, bare.second);
+}
+
 TEST(Tick, KeepsTheChainedHashOfTheStep) {
   const cases::Case scene = ball(cases::Modality::mpr, Tissue::still);
   const Tick tick(scene);

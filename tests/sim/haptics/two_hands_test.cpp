@@ -128,6 +128,56 @@ TEST(TwoHands, ANeedleDropsIntoANick) {
   EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
 }
 
+// The introducer is wider than the needle and pushed on as such; once its stylet is drawn it stays, and the needle
+// slides in it, out and in again, from where tissue is cut on; no tick is a step.
+TEST(TwoHands, AnIntroducerStaysAndTheNeedleSlidesInIt) {
+  cases::Case scene = flat_body();
+  scene.touch = {cases::NeedleTip::core, cases::TouchLaw::by_speed};
+  const auto pushed_in = [&](Introducer introducer) {
+    Right right(scene);
+    HandInput input = holding(Tool::needle, {0.0, 0.0, 10.0});
+    input.introducer = introducer;
+    right.move(input, {0.0, 0.0, -55.0}, 4000);
+    return right;
+  };
+  Right bare = pushed_in(Introducer::none), right = pushed_in(Introducer::closed);
+  EXPECT_GT(right.peak_n, 1.2 * bare.peak_n) << "0.2 mm wider, and a trocar's point";
+  const double held_n = -glm::dot(right.force.wanted_n, kDown);
+  EXPECT_GT(held_n, 1.2 * -glm::dot(bare.force.wanted_n, kDown));
+
+  HandInput input = holding(Tool::needle, {0.0, 0.0, -55.0});
+  input.introducer = Introducer::open;
+  right.rest(input, 300);
+  const double bare_tip_n = bare.states[1].needle.path.layers[3].tissue.intercept_n;
+  EXPECT_LT(-glm::dot(right.force.wanted_n, kDown), held_n) << "friction is the tube's to bear";
+  EXPECT_GT(-glm::dot(right.force.wanted_n, kDown), 0.3 * bare_tip_n) << "before the tip there is tissue";
+  right.peak_n = 0.0;
+  right.move(input, {0.0, 0.0, -10.0}, 3000);
+  EXPECT_LT(glm::length(right.force.wanted_n), 0.1) << "drawn back in its tube";
+  input.pose.position_lps_mm = {0.0, 0.0, -10.0};
+  right.move(input, {0.0, 0.0, 10.0}, 1500);
+  EXPECT_EQ(right.force.wanted_n, glm::dvec3(0.0));
+  input.pose.position_lps_mm = {0.0, 0.0, 10.0};
+  right.peak_n = 0.0;
+  const double end_mm = right.states[1].needle.track.sheath_mm;
+  EXPECT_GT(end_mm, 33.0) << "in kidney";
+  right.move(input, {0.0, 0.0, 1.0 - end_mm}, 4000);
+  EXPECT_LT(right.peak_n, 0.1) << "skin, fat and muscle are the tube's";
+  input.pose.position_lps_mm = {0.0, 0.0, 1.0 - end_mm};
+  right.move(input, {0.0, 0.0, -68.0}, 2000);
+  EXPECT_GT(right.peak_n, bare_tip_n) << "kidney, once it leaves the tube";
+  // Beside it, it is a needle as any other.
+  input.pose.position_lps_mm = {0.0, 0.0, -68.0};
+  right.move(input, {0.0, 0.0, 10.0}, 4000);
+  right.rest(holding(Tool::none, {-20.0, 0.0, 10.0}), 1);
+  input.pose.position_lps_mm = {-20.0, 0.0, 10.0};
+  right.rest(input, 1);
+  right.peak_n = 0.0;
+  right.move(input, {-20.0, 0.0, -55.0}, 4000);
+  EXPECT_NEAR(right.peak_n, bare.peak_n, 0.02);
+  EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+}
+
 // The law of touch and the tip are the case's: what was published is bit for bit as it was.
 TEST(TwoHands, ACasesLawOfTouchAndTipAreFelt) {
   const auto course = [&](const cases::Touch& touch) {
@@ -147,6 +197,31 @@ TEST(TwoHands, ACasesLawOfTouchAndTipAreFelt) {
   EXPECT_LT(*std::max_element(chiba.begin(), chiba.end()), *std::max_element(published.begin(), published.end()))
       << "30 mm/s is faster than the rows' speed";
   EXPECT_GT(trocar.back(), 1.1 * chiba.back());
+}
+
+// What the needle tells of an organ: nothing on the way, its capsule's force before it opens, the tip's in it.
+TEST(TwoHands, TheOrganThatIsPressedIsTold) {
+  Right right(flat_body());
+  double before_n = 0.0;
+  bool opened = false;
+  for (int i = 0; i < 2000; ++i) {
+    right.tick(holding(Tool::needle, {0.0, 0.0, 5.0 - 0.03 * i}));
+    const HeldNeedleState& needle = right.states[1].needle;
+    const double tip_n = needle.drag.tip_n;
+    if (needle.drag.organ != TissueClass::kidney) {
+      EXPECT_EQ(needle.drag.organ_n, 0.0);
+      EXPECT_LT(needle.track.cut_mm, 31.0) << "kidney begins there";
+    } else if (needle.track.opened < 4) {
+      EXPECT_LE(needle.drag.organ_n, tip_n) << "muscle before it bears the rest";
+      EXPECT_LE(std::abs(needle.drag.organ_n - before_n), 0.1) << "it begins without a jump";
+      before_n = needle.drag.organ_n;
+    } else {
+      opened = true;
+      EXPECT_EQ(needle.drag.organ_n, tip_n);
+    }
+  }
+  EXPECT_TRUE(opened);
+  EXPECT_GT(before_n, 1.5) << "N, on the capsule";
 }
 
 TEST(TwoHands, TissueHoldsTheNeedleSideways) {

@@ -100,6 +100,45 @@ TEST(Needle, GoesAsFarAsTouchSays) {
   }
 }
 
+// A kidney under a needle goes along and turns as a whole, as far as its form says and no farther than is sound;
+// where the wall is nothing moves; tissue at the tip stays at the tip.
+TEST(Organ, GoesAlongAndTurnsAsAWhole) {
+  constexpr double kRadiusMm = 33.0;
+  base::Rng rng(8);
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 middle_mm(0.0, 0.0, 90.0), at_mm(25.0 * rng.uniform(), 0.0, 60.0);
+    const double force_n = 0.1 + (i % 20 == 0 ? 60.0 : 2.9) * rng.uniform(), tip_mm = 8.0 + 6.0 * rng.uniform();
+    NeedleDrag drag = along_z(60.0, force_n, tip_mm, i % 2 == 0 ? 2.0 : 0.0);
+    drag.entry_lps_mm = at_mm - 60.0 * drag.direction;
+    const PushedOrgan organ{middle_mm, kRadiusMm, at_mm, force_n * drag.direction};
+    const Displacement alone = displacement_of({.organ = organ}),
+                       both = displacement_of({.needle = drag, .organ = organ});
+    ASSERT_EQ(count_sources(alone), 1);
+    EXPECT_NEAR(glm::length(displaced(both, at_mm) - at_mm - tip_mm * drag.direction), 0.0, 1e-4);
+    const glm::dvec3 middle_u = u_of(alone, middle_mm);
+    if (force_n < 3.0) {
+      EXPECT_NEAR(middle_u.z, force_n / (6.0 * std::numbers::pi * 0.001 * kRadiusMm), 1e-5);
+      EXPECT_LT(middle_u.z, 5.0) << "a few millimetres";
+    }
+    for (int j = 0; j < 20; ++j) {
+      const glm::dvec3 way = random_direction(rng);
+      const glm::dvec3 a = middle_mm + kRadiusMm * rng.uniform() * way,
+                       b = middle_mm + kRadiusMm * rng.uniform() * random_direction(rng);
+      EXPECT_NEAR(glm::dot(u_of(alone, a) - u_of(alone, b), a - b), 0.0, 1e-3) << "nothing in it is stretched";
+      EXPECT_EQ(u_of(alone, middle_mm + 2.001 * kRadiusMm * way), glm::dvec3(0.0)) << "the wall stays";
+      EXPECT_GT(volume_ratio(alone, middle_mm + (1.0 + rng.uniform()) * kRadiusMm * way), 0.2);
+      const glm::dvec3 about = middle_mm + 2.0 * kRadiusMm * rng.uniform() * way;
+      EXPECT_NEAR(glm::length(rest_of(alone, displaced(alone, about)) - about), 0.0, 0.01);
+    }
+  }
+  // Pressed in the middle it only goes along; beside it, the pressed side goes farther.
+  const auto turned = [](double x_mm) {
+    return displacement_of({.organ = PushedOrgan{{0, 0, 90}, kRadiusMm, {x_mm, 0, 60}, {0, 0, 2.6}}});
+  };
+  EXPECT_EQ(u_of(turned(0.0), {20, 0, 90}), u_of(turned(0.0), {-20, 0, 90}));
+  EXPECT_GT(u_of(turned(20.0), {20, 0, 90}).z, u_of(turned(20.0), {-20, 0, 90}).z + 1.0);
+}
+
 // From no shaft to a long one without a jump.
 TEST(Needle, BeginsToDragWithoutAJump) {
   double last_mm = 0.0;

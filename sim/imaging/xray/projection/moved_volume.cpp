@@ -18,7 +18,7 @@ constexpr int kMargin = 2;
 
 bool same(const tissue::Displacement& a, const tissue::Displacement& b) noexcept {
   if (a.contact_end != b.contact_end || a.tip_end != b.tip_end || a.shaft_end != b.shaft_end ||
-      a.vein_end != b.vein_end || a.breath_end != b.breath_end)
+      a.organ_end != b.organ_end || a.vein_end != b.vein_end || a.breath_end != b.breath_end)
     return false;
   const auto equal = [](const auto& one, const auto& other) {
     return one.x == other.x && one.y == other.y && one.z == other.z && one.w == other.w;

@@ -29,6 +29,23 @@ TEST(ActWords, OfWhatIsSaidAreForEverythingThatATraineeSaysInTheRoom) {
   EXPECT_NE(said_words({EventKind::probe_checked, 0.0, true}), said_words({EventKind::probe_checked, 0.0, false}));
 }
 
+TEST(ActWords, OfACoreNeedlesStyletAreOfItsIntroducer) {
+  using haptics::Introducer;
+  const auto words = [](EventKind kind, bool needle_in, Introducer before) {
+    return said_words({.kind = kind, .needle_in = needle_in, .core = true, .introducer = before});
+  };
+  EXPECT_EQ(words(EventKind::stylet_in, false, Introducer::none),
+            "In your hand is the needle’s introducer, its stylet in: it is wider.");
+  EXPECT_EQ(words(EventKind::stylet_in, true, Introducer::none),
+            "The needle is in tissue: draw it out before you take an introducer.");
+  EXPECT_EQ(words(EventKind::stylet_out, true, Introducer::closed),
+            "The introducer stays, its stylet out: the needle slides in it.");
+  EXPECT_EQ(words(EventKind::stylet_in, true, Introducer::open),
+            "The introducer’s stylet is in again: what you push now is the introducer.");
+  EXPECT_EQ(words(EventKind::stylet_out, false, Introducer::closed), "The introducer is put aside.");
+  EXPECT_EQ(said_words({EventKind::stylet_in}), "The stylet is in again.") << "of an access needle";
+}
+
 TEST(ActWords, OfTheArmsTellWhatStandsInTheWayFirst) {
   ArmsHeld arms{.used = true, .lost = {}, .tools = {haptics::Tool::probe, haptics::Tool::needle}};
   EXPECT_EQ(arms_words(arms).words, "left arm: probe · right arm: needle · F10: live");

@@ -71,6 +71,33 @@ double rmse_to_line(const std::vector<InsertionSample>& samples, TissueClass tis
   return n > 100 ? std::sqrt(sum / n) : NAN;
 }
 
+// In its tube nearly free, beyond it cut and dragged as if the tube's end were the surface; the same on the way
+// out.
+TEST(NeedleLaw, ThroughAnIntroducerOnlyWhatIsBeyondItIsFelt) {
+  constexpr double kEndMm = 40.0, kInTubeN = 0.06;
+  for (const TissueClass tissue : kMeasured) {
+    const auto through = insert({.tissue = needle_tissue(tissue),
+                                 .speed_mm_s = kThesisSpeed,
+                                 .depth_mm = 70.0,
+                                 .retract = true,
+                                 .introducer_mm = kEndMm},
+                                {});
+    double most_step_n = 0.0, in_tube_n = 0.0;
+    for (std::size_t i = 1; i < through.size(); ++i) {
+      most_step_n = std::max(most_step_n, std::abs(through[i].force.axial_n - through[i - 1].force.axial_n));
+      EXPECT_FALSE(through[i].force.ruptured) << "the introducer has opened it";
+      if (through[i].depth_mm < kEndMm - 1.0) in_tube_n = std::max(in_tube_n, std::abs(through[i].force.axial_n));
+      if (i < through.size() / 2 && through[i].depth_mm > kEndMm + 10.0) {
+        const double beyond_n = line_n(tissue, through[i].depth_mm - kEndMm);
+        ASSERT_NEAR(through[i].force.axial_n, beyond_n, kInTubeN) << name_of(tissue) << " " << through[i].depth_mm;
+      }
+    }
+    EXPECT_LE(in_tube_n, kInTubeN) << name_of(tissue);
+    EXPECT_GT(in_tube_n, 0.0) << "steel on steel is not nothing";
+    EXPECT_LE(most_step_n, 0.15) << "a tick (docs/touch.md)";
+  }
+}
+
 TEST(NeedleLaw, KeepsThePublishedLinesAtTheirSpeed) {
   for (const TissueClass tissue : kMeasured) {
     const double rmse = rmse_to_line(driven(tissue, kThesisSpeed, 80.0), tissue, kThesisSpeed);
@@ -207,7 +234,7 @@ TEST(NeedleLaw, NoTickIsAStepUpTo200MmPerSecond) {
     if (!(row.needle.rupture_n > 0.0)) continue;
     for (const int gauge : {16, kTableGauge, 25})
       for (const double speed : {1.0, 8.33, 50.0, 100.0, 200.0}) {
-        for (const cases::TouchLaw touch : {cases::TouchLaw::steady, cases::TouchLaw::by_speed}) {
+        for (const cases::TouchLaw touch : {cases::TouchLaw::steady, cases::kNewestTouchLaw}) {
           const NeedleTissue felt = felt_by(row.needle, *cases::gauge(gauge), {.law = touch});
           const auto samples = insert({felt, speed, 70.0, 0.1, true}, of_law({}, touch));
           for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -222,7 +249,7 @@ TEST(NeedleLaw, NoTickIsAStepUpTo200MmPerSecond) {
 
 // The newest law: what opens, opens at less the faster; what the plateau is, speed does not change (within 6 %).
 TEST(NeedleLaw, ACapsuleOpensAtLessTheFasterItIsPushed) {
-  const NeedleSettings settings = of_law({}, cases::TouchLaw::by_speed);
+  const NeedleSettings settings = of_law({}, cases::kNewestTouchLaw);
   EXPECT_FALSE(NeedleSettings{}.rupture_by_speed) << "published cases keep theirs";
   EXPECT_FALSE(of_law({}, cases::TouchLaw::steady).rupture_by_speed);
   EXPECT_NEAR(rupture_share(kRowSpeedMmS), 1.0, 1e-12);

@@ -51,6 +51,48 @@ double frequency_response(const std::vector<float>& weights, double cycles_per_p
   return h;
 }
 
+// Asked for nothing it is the picture to the bit; glare lays its share of the mean under the rest; lag leaves its
+// share of what was there, and of that its share in the next.
+TEST(Picture, GlareAndLagAreTheSharesThatAreAskedFor) {
+  constexpr int kPx = 64;
+  PathLengths open = flat(kPx, 100.0), shut = open;
+  for (int i = 0; i < kPx * kPx / 4; ++i)
+    shut.iron_mm.push_back(40.0F);  // a quarter behind what lets nothing through
+  shut.iron_mm.resize(static_cast<std::size_t>(kPx * kPx), 0.0F);
+  const auto signal = [](const FluoroscopyPicture& picture, int row) {
+    return std::exp(static_cast<double>(picture.log_signal[static_cast<std::size_t>(row * kPx + kPx / 2)]));
+  };
+  Chain chain;
+  PictureSettings settings;
+  const std::vector<unsigned char> plain = chain.of(patient(kPx), settings).grey;
+  settings.flaws = flaws_of(Panel::ideal);
+  EXPECT_EQ(chain.of(patient(kPx), settings).grey, plain);
+  settings.noise = false;
+  const double clear = signal(chain.of(open, settings), kPx - 8);
+
+  settings.flaws = {.glare_share = 0.05};
+  Chain veiled;
+  veiled.of(shut, settings);
+  EXPECT_NEAR(signal(veiled.picture, 4), 0.05 * 0.75 * clear, 0.002 * clear) << "in the shadow";
+  EXPECT_NEAR(signal(veiled.picture, kPx - 8), (0.95 + 0.05 * 0.75) * clear, 0.002 * clear) << "beside it";
+
+  settings.flaws = {.lag_share = 0.1};
+  Chain lagging;
+  EXPECT_NEAR(signal(lagging.of(open, settings), 4), clear, 1e-4 * clear) << "nothing was before the first";
+  for (const double left : {0.1, 0.01})
+    EXPECT_NEAR(signal(lagging.of(shut, settings), 4), left * clear, 0.001 * clear);
+  const auto again = lagging.of(open, settings);
+  EXPECT_NEAR(signal(again, kPx - 8), clear, 1e-4 * clear) << "where nothing changed nothing does";
+  settings.flaws = {};
+  Chain fresh;
+  fresh.of(shut, settings);
+  EXPECT_EQ(lagging.of(shut, settings).grey, fresh.picture.grey) << "it is put off";
+  for (const Panel panel : {Panel::flat_panel, Panel::intensifier}) {
+    EXPECT_LE(flaws_of(panel).lag_share, 0.10) << "Siewerdsen and Jaffray 1999";
+    EXPECT_LE(flaws_of(panel).glare_share, 1.0 / 15.0);
+  }
+}
+
 TEST(Picture, BlurHasTheMtfOfItsGaussian) {
   for (const double sigma_px : {0.0, 0.1, 0.27, 0.41, 0.55, 0.8, 1.0, 1.5, 3.0}) {
     const std::vector<float> weights = blur_weights(sigma_px);
