@@ -73,7 +73,7 @@ void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueC
     }
 }
 
-std::vector<TissueClass> classes_to_store(const Volume& volume, const LabelMap* labels) {
+std::vector<TissueClass> classes_with_organs(const Volume& volume, const LabelMap* labels) {
   std::vector<TissueClass> classes = tissue_classes(volume, labels);
   if (labels == nullptr) mark_organs(volume, find_organs(volume, classes), classes);
   return classes;

@@ -13,7 +13,8 @@ namespace seldinger::volume {
 // phase of contrast are the same for the classes that are made. Classes: as many as voxels (CHECK).
 void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueClass>& classes);
 
-// What a new case stores: a label with a known name decides (find_tissue.h); without labels organs are looked for.
-std::vector<TissueClass> classes_to_store(const Volume& volume, const LabelMap* labels);
+// What a new case stores, and a scene of a CT shows: a label with a known name decides (find_tissue.h); without
+// labels organs are looked for.
+std::vector<TissueClass> classes_with_organs(const Volume& volume, const LabelMap* labels);
 
 }  // namespace seldinger::volume
