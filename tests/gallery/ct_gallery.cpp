@@ -70,7 +70,7 @@ RgbPicture sheet_of(const fs::path& ct) {
 RgbPicture room_of(const fs::path& ct) {
   const nlohmann::json scene{
       {"volume", ct.string()},
-      {"view", {{"kind", "room"}, {"from", "foot_end"}, {"size_px", {480, 420}}, {"quality", "fine"}}}};
+      {"view", {{"kind", "room"}, {"from", "top"}, {"size_px", {480, 420}}, {"quality", "fine"}}}};
   write_file(scratch / "room.json", scene.dump());
   run("render '" + (scratch / "room.json").string() + "' --out '" + (scratch / "room.png").string() + "'");
   return fixtures::read_png(scratch / "room.png");

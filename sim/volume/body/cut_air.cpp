@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
@@ -16,15 +15,12 @@ constexpr double kRimMm = 2.0;             // of a piece, left out when its dens
 constexpr double kLeastLungMl = 2.0;       // of what is left: less says nothing
 constexpr double kRoomTissueShare = 0.35;  // of the line between a run's ends, from which on it is the room's
 constexpr double kRoomOuterShare = 0.5;    // of a piece beyond that line: it lies along the body, not in it
-// Between two bulging walls, as thighs are, air narrows faster than a triangle; a lumen bulges itself: what a plane
-// cuts off a round one is 1.3 triangles and more.
-constexpr double kWedgeTriangles = 1.0;
-constexpr double kClearVote = 3.0;      // against lung
-constexpr double kAllDense = 0.9;       // of a sure lung: with some of the room's air it is less, …
-constexpr double kLungMeanHu = -900.0;  // … and foam, 0.05 g/cm³ and less, is lighter
-constexpr double kSureVote = 20.0;      // against a sure lung: a mattress that lends coarse voxels some of its HU
-constexpr int kSidesOfTheRoom = 3;      // of the field's box, touched by one run: no lung or bowel is so wide
-constexpr double kTogether = 0.3;       // of the smaller of two pieces lies beside the other
+constexpr double kClearVote = 3.0;         // against lung
+constexpr double kAllDense = 0.9;          // of a sure lung: with some of the room's air it is less, …
+constexpr double kLungMeanHu = -900.0;     // … and foam, 0.05 g/cm³ and less, is lighter
+constexpr double kSureVote = 20.0;  // against a sure lung: a mattress that lends coarse voxels some of its HU
+constexpr int kSidesOfTheRoom = 3;  // of the field's box, touched by one run: no lung or bowel is so wide
+constexpr double kTogether = 0.3;   // of the smaller of two pieces lies beside the other
 constexpr double kBesideBodyShare =
     0.5;  // of a piece's border with tissue: else it lies between a couch and the edge
 
@@ -181,9 +177,8 @@ class EdgeAir {
         touched[2] |= p.y == low_.y, touched[3] |= p.y == high_.y;
       }
       const auto sides = std::count(touched.begin(), touched.end(), true);
-      const Shape shape = shape_of(a, b);
       const bool room = sides >= kSidesOfTheRoom || tissue_share(a, b) >= kRoomTissueShare ||
-                        shape.outer_share >= kRoomOuterShare || shape.triangles <= kWedgeTriangles;
+                        outer_share(a, b) >= kRoomOuterShare;
       for (std::size_t i = begin; i < step; ++i) {
         EdgePiece& piece = piece_at(edge_[(first + i) % count]);
         (room ? piece.room_votes : sides >= 2 ? piece.corner_votes : piece.inside_votes) += 1.0;
@@ -208,27 +203,15 @@ class EdgeAir {
     return other / (steps + 1);
   }
 
-  // Of the piece that a and b are of.
-  struct Shape {
-    double outer_share = 0.0;  // what lies between the straight line from a to b and the edge
-    double triangles = 0.0;    // what lies beyond that line, over the triangle from a and b to its farthest place
-  };
-  Shape shape_of(const glm::ivec2& a, const glm::ivec2& b) const {
+  // Of the piece that a and b are of: what lies between the straight line from a to b and the edge.
+  double outer_share(const glm::ivec2& a, const glm::ivec2& b) const {
     const std::size_t which = static_cast<std::size_t>(map_[at(a.x, a.y)]) - first_, begin = begins_[which],
                       end = which + 1 < begins_.size() ? begins_[which + 1] : places_.size();
     const glm::ivec2 way = b - a;
-    double outer = 0.0;
-    int farthest = 0;  // from the line, times its length
-    for (std::size_t i = begin; i < end; ++i) {
-      const glm::ivec2& p = places_[i];
-      const int off = way.x * (p.y - a.y) - way.y * (p.x - a.x);
-      outer += off < 0 ? 1.0 : 0.0;
-      farthest = std::max(farthest, off);
-    }
-    const auto voxels = static_cast<double>(end - begin);
-    const double length = glm::length(glm::dvec2(way));  // both ends are half a voxel farther out
-    const double triangle = 0.5 * (length + 1.0) * (length > 0.0 ? farthest / length + 1.0 : 1.0);
-    return {outer / voxels, (voxels - outer) / triangle};
+    const auto outer = std::count_if(
+        places_.begin() + static_cast<std::ptrdiff_t>(begin), places_.begin() + static_cast<std::ptrdiff_t>(end),
+        [&](const glm::ivec2& p) { return way.x * (p.y - a.y) - way.y * (p.x - a.x) < 0; });
+    return static_cast<double>(outer) / static_cast<double>(end - begin);
   }
 
   void join(const std::vector<std::int32_t>& below) {

@@ -14,10 +14,9 @@ namespace seldinger::volume {
 //
 // A piece of air lies along the edge from one piece of tissue to the next. Outside a body the line between these
 // two ends leads through tissue; inside, where the edge cuts a lung or a bowel, it leads through the air itself.
-// Where most of a piece lies between that line and the edge, it lies along a body and not in it; where it narrows
-// faster than a triangle, it is a pocket between two bulging walls, of thighs or breasts; what is thin as gas and
-// turns round a corner of the field is the room's. Pieces of neighbouring slices that overlap vote together. What
-// is as dense as lung is lung but for a clear vote against.
+// Where most of a piece lies between that line and the edge, it lies along a body and not in it; what is thin as
+// gas and turns round a corner of the field is the room's. Pieces of neighbouring slices that overlap vote
+// together. What is as dense as lung is lung but for a clear vote against.
 std::vector<std::uint8_t> air_cut_by_edge(const Volume& volume, const AxialSlices& slices,
                                           const std::vector<std::uint8_t>& tissue,
                                           const std::vector<std::uint8_t>& body,

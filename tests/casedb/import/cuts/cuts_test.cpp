@@ -89,21 +89,6 @@ TEST(CutSkin, OfAPocketAtACornerIsKept) {
       for (int i = 0; i < 90; ++i) ASSERT_EQ(body[made.index(i, j, k)], air(i, j) ? 0 : 1) << i << " " << j;
 }
 
-// The same between two thighs: what the front shuts is the room's, and a gut of gas within one that it cuts is not.
-TEST(CutSkin, OfAPocketBetweenThighsIsKept) {
-  volume::Volume made = volume::make_volume({120, 50, 20}, {2, 2, 3}, glm::dmat3(1.0), glm::dvec3(0.0));
-  const auto thigh = [](int i, int j) { return std::hypot(std::abs(i - 59.5) - 30.0, j - 24.0) <= 32.0; };
-  const auto gas = [](int i, int j) { return std::hypot(i - 29.5, j + 3.5) < 12.0; };
-  for (int k = 0; k < 20; ++k)
-    for (int j = 0; j < 50; ++j)
-      for (int i = 0; i < 120; ++i) made.hu[made.index(i, j, k)] = thigh(i, j) && !gas(i, j) ? 40 : -1000;
-  const std::vector<std::uint8_t> body = volume::body_mask(made);
-  for (int k = 0; k < 20; ++k)
-    for (int j = 0; j < 50; ++j)
-      for (int i = 0; i < 120; ++i)
-        ASSERT_EQ(body[made.index(i, j, k)], thigh(i, j) ? 1 : 0) << i << " " << j << " " << k;
-}
-
 TEST(CutSkin, WithinTheBodyThereIsNone) {
   volume::Crop crop;
   crop.name = "core";
