@@ -18,6 +18,19 @@ Json tissue_json(const volume::TissueTold& told) {
           {"doubts", told.doubts}};
 }
 
+// Also those that are not sure enough to be named.
+Json organs_json(const std::optional<volume::Organs>& organs) {
+  Json list = Json::array();
+  if (organs)
+    for (const volume::OrganFound& one : organs->found)
+      list.push_back({{"organ", base::name_of(volume::kFoundOrganNames, one.organ)},
+                      {"named", one.confidence >= volume::kOrganConfidence},
+                      {"confidence", one.confidence},
+                      {"ml", one.ml},
+                      {"level_hu", one.level_hu}});
+  return list;
+}
+
 }  // namespace
 
 std::string json_of_structure(const std::string& structure_id) {
@@ -40,7 +53,7 @@ std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& 
 }
 
 std::string json_of_needs(const std::string& case_id, cases::SightLaw sight_law, const session::CaseNeeds& needs,
-                          const volume::TissueTold& tissue) {
+                          const volume::TissueTold& tissue, const std::optional<volume::Organs>& organs) {
   Json held = Json::array(), sources = Json::array();
   for (const session::CaseNeed& one : needs.held) held.push_back({{"what", one.what}, {"bytes", one.bytes}});
   for (const session::MotionSource& one : needs.sources)
@@ -56,7 +69,8 @@ std::string json_of_needs(const std::string& case_id, cases::SightLaw sight_law,
                  {"bytes", needs.displacement_bytes},
                  {"there_ns", needs.there_ns},
                  {"back_ns", needs.back_ns}}},
-               {"tissue", tissue_json(tissue)}});
+               {"tissue", tissue_json(tissue)},
+               {"organs", organs_json(organs)}});
 }
 
 std::string json_of_rehearsal(const std::string& case_id, const session::Rehearsal& rehearsal) {

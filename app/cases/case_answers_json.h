@@ -1,6 +1,7 @@
 // The JSON documents that the commands of a case's author answer.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "session/attempt/rehearsal.h"
 #include "session/case/case_check.h"
 #include "session/case/case_needs.h"
+#include "sim/volume/organs/find_organs.h"
 #include "sim/volume/tissue/tissue_told.h"
 
 namespace seldinger::app {
@@ -22,7 +24,7 @@ std::string json_of_structure(const std::string& structure_id);
 std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
 std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& check);
 std::string json_of_needs(const std::string& case_id, cases::SightLaw sight_law, const session::CaseNeeds& needs,
-                          const volume::TissueTold& tissue);
+                          const volume::TissueTold& tissue, const std::optional<volume::Organs>& organs);
 std::string json_of_rehearsal(const std::string& case_id, const session::Rehearsal& rehearsal);
 std::string json_of_version(const casedb::CaseRow& row);
 

@@ -10,6 +10,7 @@
 #include "app/replay/png.h"
 #include "casedb/cases/authoring.h"
 #include "session/case/case_build.h"
+#include "sim/volume/organs/find_organs.h"
 
 namespace seldinger::app {
 namespace {
@@ -40,17 +41,20 @@ int run_case_explain(const Arguments& arguments) {
   if (!volume) return refuse(volume.error());
   const auto classes = casedb::load_classes(*library, *row);
   if (!classes) return refuse(classes.error());
+  std::optional<volume::Organs> organs;
+  if (sheet || row->labels_sha256.empty()) organs = volume::find_organs(*volume, *classes);
   if (sheet) {
-    const Canvas drawn = tissue_sheet(*volume, *classes, volume::find_organs(*volume, *classes));
+    const Canvas drawn = tissue_sheet(*volume, *classes, *organs);
     const std::vector<std::byte> png = png_from_rgb(drawn.rgb(), drawn.width_px(), drawn.height_px());
     write_file(*sheet, std::string(reinterpret_cast<const char*>(png.data()), png.size()));
   }
   const volume::TissueTold tissue = volume::tell_tissue(*volume, *classes);
   if (arguments.has("--json")) {
-    std::fputs(json_of_needs(case_id, row->sight_law, needs, tissue).c_str(), stdout);
+    std::fputs(json_of_needs(case_id, row->sight_law, needs, tissue, organs).c_str(), stdout);
     return kDone;
   }
   std::fputs(tissue_text(tissue).c_str(), stdout);
+  if (row->labels_sha256.empty()) std::fputs(organs_text(*organs).c_str(), stdout);
   std::printf("law of sight     %s%s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
               row->modality != cases::Modality::xray ? ""
               : row->sight_law == cases::SightLaw::scatter

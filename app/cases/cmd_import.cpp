@@ -137,6 +137,7 @@ int run_import(const Arguments& arguments) {
   const auto classes = casedb::load_classes(*library, *row);
   if (!classes) return refuse(classes.error());
   std::fputs(tissue_text(volume::tell_tissue(imported->volume, *classes)).c_str(), stdout);
+  if (!imported->labels) std::fputs(organs_text(volume::find_organs(imported->volume, *classes)).c_str(), stdout);
   return kDone;
 }
 

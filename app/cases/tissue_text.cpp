@@ -22,6 +22,10 @@ const char* words_of(volume::ContrastPhase phase) {
   return "";
 }
 
+void add_to(std::string& list, const std::string& words) {
+  list += (list.empty() ? "" : ", ") + words;
+}
+
 }  // namespace
 
 std::string tissue_text(const volume::TissueTold& told) {
@@ -44,6 +48,26 @@ std::string tissue_text(const volume::TissueTold& told) {
   text += "\n";
   for (const std::string& doubt : told.doubts) text += "doubtful: " + doubt + "\n";
   return text;
+}
+
+std::string organs_text(const volume::Organs& organs) {
+  std::string named, not_named;
+  for (const auto& [organ, name] : volume::kFoundOrganNames) {
+    if (organ == volume::FoundOrgan::none) continue;
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    const auto found = std::find_if(organs.found.begin(), organs.found.end(), [&](const volume::OrganFound& one) {
+      return one.organ == organ && one.confidence >= volume::kOrganConfidence;
+    });
+    if (found == organs.found.end())
+      add_to(not_named, words);
+    else
+      add_to(named, words + " (" + std::to_string(std::lround(found->ml)) + " ml, " +
+                        std::to_string(std::lround(100.0 * found->confidence)) + " % sure)");
+  }
+  return "organs   " + (named.empty() ? std::string("none named") : named) + "\n" +
+         (not_named.empty() ? std::string() : "not sure enough to name: " + not_named + "\n") +
+         "not looked for: heart, gallbladder, stomach, bowel, pancreas and whatever else is not listed\n";
 }
 
 }  // namespace seldinger::app

@@ -6,6 +6,7 @@
 #include "app/cli/words.h"
 #include "casedb/cases/cases.h"
 #include "casedb/import/import.h"
+#include "sim/volume/organs/organ_classes.h"
 #include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::app {
@@ -50,7 +51,7 @@ base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, co
     const volume::LabelMap labels = volume::make_phantom(*built_in).labels;
     return volume::tissue_classes(volume, &labels);
   }
-  if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::tissue_classes(volume);
+  if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::classes_with_organs(volume, nullptr);
   auto opened = casedb::Library::open(library);
   if (!opened) return error_of("the library", library, opened.error());
   const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);

@@ -82,7 +82,7 @@ struct LesionRow {
   std::int64_t created_us = 0;
 };
 
-// Also computes the tissue classes and stores them.
+// Also computes the tissue classes and stores them, with those of organs that are found in a CT without labels.
 std::string add_case(Library& library, const NewCase& new_case);
 std::vector<CaseRow> list_cases(Library& library);  // oldest first
 // The same for lists of thousands: without attributes, warnings and what was dropped.

@@ -15,6 +15,7 @@
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
 #include "sim/base/check.h"
+#include "sim/volume/organs/organ_classes.h"
 #include "sim/volume/tissue/find_tissue.h"
 #include "sim/volume/volume_bytes.h"
 
@@ -249,8 +250,8 @@ std::string add_case(Library& library, const NewCase& new_case) {
   if (new_case.labels) labels_sha256 = assets.add(volume::bytes_from_labels(*new_case.labels));
   std::string original_sha256;
   if (new_case.prepared) original_sha256 = assets.add(volume::bytes_from_volume(new_case.prepared->original));
-  const std::string classes_sha256 = assets.add(
-      volume::bytes_from_classes(volume::tissue_classes(volume, new_case.labels ? &*new_case.labels : nullptr)));
+  const std::string classes_sha256 = assets.add(volume::bytes_from_classes(
+      volume::classes_with_organs(volume, new_case.labels ? &*new_case.labels : nullptr)));
 
   Transaction transaction(library.database());
   assets.make_sure();

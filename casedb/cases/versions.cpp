@@ -15,7 +15,7 @@
 #include "casedb/database/tables.h"
 #include "casedb/database/uuid.h"
 #include "sim/base/check.h"
-#include "sim/volume/tissue/find_tissue.h"
+#include "sim/volume/organs/organ_classes.h"
 #include "sim/volume/volume_bytes.h"
 
 namespace seldinger::casedb {
@@ -405,7 +405,7 @@ base::Result<std::string> add_prepared_copy(Library& library, const std::string&
   const std::string volume_sha256 = assets.add(volume::bytes_from_volume(prepared.volume)),
                     skin_sha256 = assets.add(cases::bytes_from_mesh(prepared.skin)),
                     classes_sha256 = assets.add(volume::bytes_from_classes(
-                        volume::tissue_classes(prepared.volume, labels ? &*labels : nullptr)));
+                        volume::classes_with_organs(prepared.volume, labels ? &*labels : nullptr)));
   const CopyData other{{prepared.volume, volume_sha256, skin_sha256, classes_sha256},
                        {prepared.settings, before ? before->original_sha256 : from->volume_sha256},
                        prepared.warnings,

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace seldinger::volume {
 namespace {
@@ -34,7 +35,11 @@ constexpr int kStepHu = 4;
 class Finder {
  public:
   Finder(const OrganGrid& grid, const std::vector<glm::dvec2>& middle_mm)
-      : grid_(grid), lattice_(grid.volume.size_voxels), middle_mm_(middle_mm) {}
+      : grid_(grid), lattice_(grid.volume.size_voxels), middle_mm_(middle_mm) {
+    for (std::size_t at = 0; at < grid.soft.size(); ++at)
+      if (grid.soft[at] != 0) by_level_.emplace_back(double{grid.level_hu[at]}, at);
+    std::sort(by_level_.begin(), by_level_.end());
+  }
 
   std::optional<Part> find(const OrganLaw& law) const {
     std::optional<Part> best;
@@ -47,12 +52,13 @@ class Finder {
  private:
   std::vector<Part> pieces(const OrganLaw& law, int level) const {
     const double wide_hu = std::max(law.wide_hu, grid_.noise_sd_hu);
-    Mask alike(grid_.soft.size(), 0);
-    for (std::size_t at = 0; at < alike.size(); ++at)
-      alike[at] = grid_.soft[at] != 0 && std::abs(double{grid_.level_hu[at]} - level) <= wide_hu ? 1 : 0;
+    const auto first =
+                   std::lower_bound(by_level_.begin(), by_level_.end(), std::pair(level - wide_hu, std::size_t{0})),
+               last = std::lower_bound(first, by_level_.end(), std::pair(level + wide_hu, grid_.soft.size()));
     std::vector<Part> made;
-    const auto count = static_cast<std::size_t>(std::count(alike.begin(), alike.end(), 1));
-    if (ml_of(count) < law.least_ml / 2.0) return made;  // its edge is the rest
+    if (ml_of(static_cast<std::size_t>(last - first)) < law.least_ml / 2.0) return made;  // its edge is the rest
+    Mask alike(grid_.soft.size(), 0);
+    for (auto one = first; one != last; ++one) alike[one->second] = 1;
     for (const Voxels& cores : lattice_.pieces(lattice_.eroded(alike, law.reach_mm))) {
       if (ml_of(cores.size()) < 0.02 * law.least_ml || ml_of(cores.size()) > law.most_ml) continue;
       if (auto one = judged(law, level, alike, cores)) made.push_back(std::move(*one));
@@ -144,6 +150,7 @@ class Finder {
   const OrganGrid& grid_;
   Lattice lattice_;
   const std::vector<glm::dvec2>& middle_mm_;
+  std::vector<std::pair<double, std::size_t>> by_level_;  // level in HU and index of each soft voxel, in order
 };
 
 // Two kidneys are alike in level and size; one alone may be something else.

@@ -19,8 +19,7 @@ TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& cla
 
   if (told.contrast.may_be_swallowed)
     told.doubts.emplace_back("what is bright may be contrast in the bowel: no organ is enhanced");
-  const bool labelled =
-      voxels(TissueClass::liver) + voxels(TissueClass::spleen) + voxels(TissueClass::kidney) > 0.0;
+  const bool labelled = voxels(TissueClass::muscle) > 0.0;  // a label alone tells it
   if (!labelled && told.contrast.phase != ContrastPhase::none && voxels(TissueClass::vessel) > 0.0)
     told.doubts.emplace_back("a stone or a calcified plaque deep in a CT with contrast is told as vessel");
   if (voxels(TissueClass::metal) > 0.0)

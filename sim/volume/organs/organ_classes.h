@@ -1,0 +1,20 @@
+// What an organ that is named makes of the classes of its voxels, so that ultrasound and touch know it.
+#pragma once
+
+#include <vector>
+
+#include "sim/volume/organs/find_organs.h"
+
+namespace seldinger::volume {
+
+// Where liver, spleen or a kidney is named, soft tissue and vessel become its class, since HU tell cortex full of
+// contrast from no vessel; soft tissue of aorta and vena cava becomes vessel, of the bladder fluid. Fat, gas, bone,
+// cysts and metal within an organ stay. The organ's edge lies between the voxels of its grid. Found organs and the
+// phase of contrast are the same for the classes that are made. Classes: as many as voxels (CHECK).
+void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueClass>& classes);
+
+// What a new case stores, and a scene of a CT shows: a label with a known name decides (find_tissue.h); without
+// labels organs are looked for.
+std::vector<TissueClass> classes_with_organs(const Volume& volume, const LabelMap* labels);
+
+}  // namespace seldinger::volume
