@@ -53,7 +53,7 @@ int run_case_explain(const Arguments& arguments) {
   std::fputs(tissue_text(tissue).c_str(), stdout);
   std::printf("law of sight     %s%s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
               row->modality != cases::Modality::xray ? ""
-              : row->sight_law == cases::SightLaw::scatter
+              : row->sight_law >= cases::SightLaw::scatter
                   ? ": pictures include what the patient scatters; a narrower field is clearer"
                   : ": pictures leave out what the patient scatters");
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);

@@ -14,6 +14,8 @@ constexpr const char* kNotInUse = "another modality";
 constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
 constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
 constexpr const char* kNoColour = "off, or another modality";
+constexpr const char* kWholeBox = "the box is nearly all of the picture, or another modality";
+constexpr const char* kNoCompounding = "off, or another modality";
 constexpr const char* kAsTheCase = "as the case's picture has it, or another modality";
 constexpr const char* kAtRest = "tissue at the tip is where it is at rest: at the tip";
 constexpr const char* kRestTip =
@@ -336,6 +338,15 @@ const std::vector<Column<FrameFact>>& frame_columns() {
        [](CsvLine& line, const Fact& f) { place(line, f.console.slice_mm != 0.0, f.console.slice_mm); }},
       {{"console_colour_mm_s", "number", "mm/s", kNoColour, "colour Doppler: the speed at which it wraps around"},
        [](CsvLine& line, const Fact& f) { place(line, f.console.colour_mm_s != 0.0, f.console.colour_mm_s); }},
+      {{"console_lean_deg", "number", "deg", kNoColour, "how far its beams leaned towards the face's last one"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.colour_mm_s != 0.0, f.console.lean_deg); }},
+      {{"console_box_across", "number", "", kWholeBox, "middle of its box, a share of the picture's beams"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.box_across != 0.0, f.console.box_across); }},
+      {{"console_box_down", "number", "", kWholeBox, "and of its depth"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.box_down != 0.0, f.console.box_down); }},
+      {{"console_compound_deg", "number", "deg", kNoCompounding,
+        "spatial compounding: how far the looks from the sides are apart from the middle one"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.compound_deg != 0.0, f.console.compound_deg); }},
   };
   return columns;
 }

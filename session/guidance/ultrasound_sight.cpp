@@ -6,6 +6,7 @@
 
 #include "assessment/operators/probe_over.h"
 #include "sim/base/check.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/mirror.h"
 
@@ -205,19 +206,47 @@ struct UltrasoundSight::Screen {
   imaging::PolarPicture polar;
 };
 
+struct UltrasoundSight::Compounded {
+  explicit Compounded(const imaging::UltrasoundView& view) : compounder(view) {}
+  imaging::Compounder compounder;
+  std::array<imaging::Look, imaging::kLooks> looks;
+};
+
 imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                                const imaging::NeedlePose& needle, std::uint64_t seed,
                                                std::uint64_t frame, imaging::PolarPicture& picture,
-                                               const tissue::Displacement& displacement, double t_s) const {
+                                               const tissue::Displacement& displacement, double t_s,
+                                               LooksOf looks) {
   imaging::UltrasoundView view = held(view_of(scene_.picture, console), probe);
   view.method = method_;
   const std::vector<float> depths = element_depths(scene_.skin_index, view, 1, displacement);
   const tissue::Displacement moved = drawn(view, displacement, t_s);
-  if (gpu_)
-    gpu_->polar(view, {needle, scene_.lesions}, depths, picture, moved);
-  else
-    imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, depths, picture, moved);
-  imaging::add_receiver_noise(seed, frame, picture);
+  const auto receive = [&](const imaging::UltrasoundView& look, std::uint64_t number,
+                           imaging::PolarPicture& received) {
+    if (gpu_)
+      gpu_->polar(look, {needle, scene_.lesions}, depths, received, moved);
+    else
+      imaging::ultrasound_polar(tissue_, look, {needle, scene_.lesions}, depths, received, moved);
+    imaging::add_clutter(look, depths, received);
+    imaging::add_receiver_noise(seed, number, received);
+  };
+  if (!(view.compound_deg > 0.0)) {
+    compounded_.reset();
+    receive(view, frame, picture);
+    return view;
+  }
+  bool all = looks == LooksOf::one_moment;
+  if (!compounded_ || !compounded_->compounder.is_of(view)) {
+    compounded_ = std::make_shared<Compounded>(view);
+    all = true;
+  }
+  for (std::size_t i = 0; i < compounded_->looks.size(); ++i)
+    if (all || frame % imaging::kLooks == i) {
+      compounded_->looks[i].depth_below_skin_mm = depths;
+      receive(imaging::look_of(view, static_cast<int>(i)), frame * imaging::kLooks + i,
+              compounded_->looks[i].picture);
+    }
+  compounded_->compounder.mean(view, compounded_->looks, picture);
   return view;
 }
 
@@ -235,8 +264,8 @@ std::optional<imaging::ColourPicture> UltrasoundSight::colour(const cases::ToolP
   const imaging::UltrasoundView view = held(view_of(scene_.picture, console), probe);
   imaging::ColourPicture colour;
   imaging::colour_polar(tissue_, view, {needle, scene_.lesions},
-                        element_depths(scene_.skin_index, view, 1, displacement), flow_, console.colour_mm_s, t_s,
-                        colour, drawn(view, displacement, t_s));
+                        element_depths(scene_.skin_index, view, 1, displacement), flow_, console, t_s, colour,
+                        drawn(view, displacement, t_s));
   return colour;
 }
 

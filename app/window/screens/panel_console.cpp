@@ -19,7 +19,7 @@ struct TurningKey {
   int key;
   ConsoleTurn turn;
 };
-constexpr std::array<TurningKey, 14> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
+constexpr std::array<TurningKey, 15> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
                                                          {kDown, ConsoleTurn::depth_more},
                                                          {'[', ConsoleTurn::focus_less},
                                                          {']', ConsoleTurn::focus_more},
@@ -32,6 +32,7 @@ constexpr std::array<TurningKey, 14> kUltrasoundKeys = {{{kUp, ConsoleTurn::dept
                                                          {'B', ConsoleTurn::next_map},
                                                          {'X', ConsoleTurn::flip},
                                                          {'V', ConsoleTurn::colour},
+                                                         {'Z', ConsoleTurn::compound},
                                                          {'C', ConsoleTurn::next_preset}}};
 constexpr std::array<TurningKey, 3> kSliceKeys = {
     {{kUp, ConsoleTurn::slice_back}, {kDown, ConsoleTurn::slice_on}, {'C', ConsoleTurn::next_window}}};
@@ -161,6 +162,13 @@ bool MonitorPanel::draw_beam_knobs(float wide) {
 }
 
 void MonitorPanel::draw_colour_knobs(float wide) {
+  bool compound = knobs_.asked().compound_deg > 0.0;
+  if (ImGui::Checkbox("compound", &compound)) knobs_.set_compounding(compound);
+  note_item("compound");
+  tip("spatial compounding (Z): three pictures from three sides are averaged. Speckle and the shadows of edges "
+      "are\n"
+      "evened out; what moves is blurred, for each picture is one look, shown with the last two");
+  ImGui::SameLine();
   bool colour = knobs_.asked().colour_mm_s > 0.0;
   if (ImGui::Checkbox("colour", &colour)) knobs_.turn(ConsoleTurn::colour, false);
   note_item("colour");
@@ -172,6 +180,14 @@ void MonitorPanel::draw_colour_knobs(float wide) {
            "± %.0f cm/s", 0.19F * wide))
     knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));
   tip("the speed at which colours wrap around; a deeper picture allows less");
+  ImGui::SameLine();
+  const double most_lean_deg = imaging::most_lean_deg(knobs_.view());
+  if (most_lean_deg == 0.0) return;
+  double lean_deg = knobs_.asked().lean_deg;
+  if (knob("##lean", lean_deg, -most_lean_deg, most_lean_deg, "lean %+.0f°", 0.19F * wide))
+    knobs_.set_lean_deg(std::round(lean_deg));
+  note_item("lean");
+  tip("colour's beams lean to the side: then flow along the face shows, too");
   ImGui::SameLine();
 }
 
