@@ -27,15 +27,17 @@ endfunction()
 probed_layers_as(debug -O0 -UNDEBUG)
 probed_layers_as(fma -O3 -mavx2 -mfma)
 
-# seldinger_probe(NAME LINKS layers ...): NAME.cpp's program as NAME_debug, NAME_fma and, of the layers as they are
-# released, NAME_released.
+# seldinger_probe(NAME [RELEASED layers ...]): the program of NAME_probe.cpp as NAME_debug and NAME_fma and, of those
+# layers as they are released, as NAME_released.
 function(seldinger_probe NAME)
-  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
-  foreach(flavour debug fma released)
+  cmake_parse_arguments(ARG "" "" "RELEASED" ${ARGN})
+  foreach(flavour debug fma)
     add_executable(${NAME}_${flavour} ${NAME}_probe.cpp)
+    target_link_libraries(${NAME}_${flavour} PRIVATE probed_${flavour})
   endforeach()
-  target_link_libraries(${NAME}_debug PRIVATE probed_debug)
-  target_link_libraries(${NAME}_fma PRIVATE probed_fma)
-  list(TRANSFORM ARG_LINKS PREPEND seldinger_)
-  target_link_libraries(${NAME}_released PRIVATE ${ARG_LINKS})
+  if(ARG_RELEASED)
+    list(TRANSFORM ARG_RELEASED PREPEND seldinger_)
+    add_executable(${NAME}_released ${NAME}_probe.cpp)
+    target_link_libraries(${NAME}_released PRIVATE ${ARG_RELEASED})
+  endif()
 endfunction()

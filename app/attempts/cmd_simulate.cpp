@@ -234,8 +234,7 @@ constexpr Option kSimulateOptions[] = {
     {"--event", "KIND@SECONDS",
      "what happens at that time: a mentor's cough, bleeding or pressure_drop, or stylet_out, stylet_in or inject "
      "(2 ml of contrast) at an access needle's hub, or the first two of a core needle's introducer; may be given "
-     "many "
-     "times",
+     "many times",
      true},
     {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
     {"--resume", "ATTEMPT",

@@ -42,22 +42,24 @@ int run_case_explain(const Arguments& arguments) {
   const auto classes = casedb::load_classes(*library, *row);
   if (!classes) return refuse(classes.error());
   std::optional<volume::Organs> organs;
-  if (sheet || row->labels_sha256.empty()) organs = volume::find_organs(*volume, *classes);
+  const bool looked_for = row->labels_sha256.empty() && row->subject != cases::Subject::phantom;
+  if (sheet || looked_for) organs = volume::find_organs(*volume, *classes);
   if (sheet) {
     const Canvas drawn = tissue_sheet(*volume, *classes, *organs);
     const std::vector<std::byte> png = png_from_rgb(drawn.rgb(), drawn.width_px(), drawn.height_px());
     write_file(*sheet, std::string(reinterpret_cast<const char*>(png.data()), png.size()));
   }
-  const volume::TissueTold tissue = volume::tell_tissue(*volume, *classes);
+  const volume::TissueTold tissue = volume::tell_tissue(*volume, *classes, !row->labels_sha256.empty());
   if (arguments.has("--json")) {
-    std::fputs(json_of_needs(case_id, row->sight_law, needs, tissue, organs).c_str(), stdout);
+    std::fputs(json_of_needs(case_id, row->sight_law, needs, tissue, looked_for ? organs : std::nullopt).c_str(),
+               stdout);
     return kDone;
   }
   std::fputs(tissue_text(tissue).c_str(), stdout);
-  if (row->labels_sha256.empty()) std::fputs(organs_text(*organs).c_str(), stdout);
+  if (looked_for) std::fputs(organs_text(*organs).c_str(), stdout);
   std::printf("law of sight     %s%s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
               row->modality != cases::Modality::xray ? ""
-              : row->sight_law == cases::SightLaw::scatter
+              : row->sight_law >= cases::SightLaw::scatter
                   ? ": pictures include what the patient scatters; a narrower field is clearer"
                   : ": pictures leave out what the patient scatters");
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);

@@ -136,7 +136,8 @@ int run_import(const Arguments& arguments) {
   std::fputs(privacy_text(*row).c_str(), stdout);
   const auto classes = casedb::load_classes(*library, *row);
   if (!classes) return refuse(classes.error());
-  std::fputs(tissue_text(volume::tell_tissue(imported->volume, *classes)).c_str(), stdout);
+  std::fputs(tissue_text(volume::tell_tissue(imported->volume, *classes, imported->labels.has_value())).c_str(),
+             stdout);
   if (!imported->labels) std::fputs(organs_text(volume::find_organs(imported->volume, *classes)).c_str(), stdout);
   return kDone;
 }
@@ -280,6 +281,7 @@ Command case_confirm_command() {
       .max_positionals = 1,
       .options = kConfirmOptions,
       .acts = true,
+      .named = true,
       .summary =
           "Keeps that somebody looked through a case's slices and saw no text burned in: publishing asks for it.",
       .run = &run_case_confirm};

@@ -115,6 +115,7 @@ Command case_review_command() {
           .max_positionals = 1,
           .options = kReviewOptions,
           .acts = true,
+          .named = true,
           .summary = "Submits a draft to review; with --approve or --return a second person's answer.",
           .run = &run_case_review};
 }
@@ -126,6 +127,7 @@ Command case_publish_command() {
           .max_positionals = 1,
           .options = kPublishOptions,
           .acts = true,
+          .named = true,
           .summary = "Publishes a case that holds its check and was approved; it never changes again.",
           .run = &run_case_publish};
 }
@@ -137,6 +139,7 @@ Command case_retire_command() {
           .max_positionals = 1,
           .options = kRetireOptions,
           .acts = true,
+          .named = true,
           .summary = "Retires a published case; its attempts stay.",
           .run = &run_case_retire};
 }
@@ -148,6 +151,7 @@ Command case_version_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
+          .named = true,
           .summary = "Makes the next version of a case, as a draft.",
           .run = &run_case_version};
 }

@@ -65,8 +65,8 @@ std::string organs_text(const volume::Organs& organs) {
       add_to(named, words + " (" + std::to_string(std::lround(found->ml)) + " ml, " +
                         std::to_string(std::lround(100.0 * found->confidence)) + " % sure)");
   }
-  return "organs   " + (named.empty() ? std::string("none named") : named) + "\n" +
-         (not_named.empty() ? std::string() : "not sure enough to name: " + not_named + "\n") +
+  return "organs   " + (named.empty() ? std::string("none is sure enough to be named") : named) + "\n" +
+         (not_named.empty() ? std::string() : "not found, or not sure enough to name: " + not_named + "\n") +
          "not looked for: heart, gallbladder, stomach, bowel, pancreas and whatever else is not listed\n";
 }
 

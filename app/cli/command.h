@@ -25,7 +25,8 @@ struct Command {
   const char* positionals = "";  // as shown, e.g. "CASE"
   std::size_t min_positionals = 0, max_positionals = 0;
   std::span<const Option> options{};
-  bool acts = false;  // takes kActs too: somebody is behind it (app/acting/acting.h)
+  bool acts = false;   // takes kActs too: somebody is behind it (app/acting/acting.h)
+  bool named = false;  // and has to be named
   const char* summary;
   int (*run)(const Arguments&);
 };

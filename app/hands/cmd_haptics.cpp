@@ -197,8 +197,7 @@ constexpr Option kInsertOptions[] = {
     {"--relaxation", nullptr, "held tissue relaxes"},
     {"--touch", base::kAlternatives<cases::kTouchLawNames>,
      "the law of touch; default steady, the same at any speed. by_speed: the faster the needle, the less force "
-     "opens a "
-     "capsule, and tissue that is held relaxes"},
+     "opens a capsule, and tissue that is held relaxes. organs_move: as by_speed; what moves is seen, not felt"},
     {"--tip", base::kAlternatives<cases::kNeedleTipNames>, "its form, which counts by speed; default bevel"},
     {"--introducer-mm", "D", "it goes through an introducer that ends so deep; default none"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};

@@ -145,6 +145,7 @@ Command curriculum_add_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
+          .named = true,
           .summary = "Makes a curriculum, as a draft; by a mentor.",
           .run = &run_curriculum_add};
 }
@@ -156,6 +157,7 @@ Command curriculum_item_command() {
           .max_positionals = 1,
           .options = kCurriculumItemOptions,
           .acts = true,
+          .named = true,
           .summary = "Adds a case at a draft's end; by a mentor.",
           .run = &run_curriculum_item};
 }
@@ -167,6 +169,7 @@ Command curriculum_publish_command() {
           .max_positionals = 1,
           .options = kLibraryOnly,
           .acts = true,
+          .named = true,
           .summary = "Publishes a curriculum, by a director; it never changes again.",
           .run = &run_curriculum_publish};
 }
@@ -195,6 +198,7 @@ Command curriculum_remove_command() {
           .max_positionals = 1,
           .options = kLibraryOnly,
           .acts = true,
+          .named = true,
           .summary = "Takes a draft away, by a mentor; retires a published one, by a director.",
           .run = &run_curriculum_remove};
 }

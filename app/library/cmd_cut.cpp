@@ -109,6 +109,7 @@ Command standard_propose_command() {
           .max_positionals = 1,
           .options = kProposeOptions,
           .acts = true,
+          .named = true,
           .summary =
               "Proposes a cut for a case, by a method of standard setting, from the data of a meeting; by a "
               "mentor or a director. People and judges are stored as numbers.",
@@ -122,6 +123,7 @@ Command standard_freeze_command() {
           .max_positionals = 1,
           .options = kFreezeOptions,
           .acts = true,
+          .named = true,
           .summary = "Freezes a cut that somebody else proposed; by a director. From then on it stands.",
           .run = &run_standard_freeze};
 }

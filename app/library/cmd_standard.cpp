@@ -71,6 +71,7 @@ Command standard_set_command() {
           .max_positionals = 1,
           .options = kStandardSetOptions,
           .acts = true,
+          .named = true,
           .summary = "Sets the standard of a case: what its consultants did so far, frozen; by a director.",
           .run = &run_standard_set};
 }

@@ -10,6 +10,7 @@
 #include "app/pictures/room_view.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
+#include "sim/case/console.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/ultrasound/view/ultrasound.h"
 #include "sim/imaging/xray/beam/attenuation.h"
@@ -45,7 +46,7 @@ struct UltrasoundSceneView {
   imaging::UltrasoundKnobs knobs;
   imaging::DisplaySize size;
   UltrasoundOutput output = UltrasoundOutput::display;
-  double colour_mm_s = 0.0;  // colour Doppler: the speed at which it wraps; 0: off
+  cases::ConsoleSetting console{};  // its colour Doppler alone
 };
 using View = std::variant<imaging::MprView, XrayView, UltrasoundSceneView>;
 

@@ -1,6 +1,7 @@
 #include "app/pictures/scene_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -13,6 +14,7 @@
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
 #include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
@@ -188,23 +190,40 @@ void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imag
   const bool on_screen = scene.output == UltrasoundOutput::display;
   constexpr std::uint64_t kFrame = 1;
   imaging::PolarPicture polar;
-  const auto on_cpu = [&] {
-    imaging::ultrasound_polar(tissue, view, inserted, below_skin_mm, polar, displacement);
-    if (on_screen) {
-      imaging::add_receiver_noise(view.seed, kFrame, polar);
-      imaging::ScanConverter(view, scene.size).grey(view, scene.knobs, polar, picture.grey);
+  // Of what `envelope` makes of a look. Noise and clutter are the screen's.
+  const auto receive = [&](const auto& envelope) {
+    const auto one = [&](const imaging::UltrasoundView& look, std::uint64_t frame,
+                         imaging::PolarPicture& received) {
+      envelope(look, received);
+      if (!on_screen) return;
+      imaging::add_clutter(look, below_skin_mm, received);
+      imaging::add_receiver_noise(look.seed, frame, received);
+    };
+    if (view.compound_deg > 0.0) {
+      std::array<imaging::Look, imaging::kLooks> looks;
+      for (std::size_t i = 0; i < looks.size(); ++i) {
+        looks[i].depth_below_skin_mm = below_skin_mm;
+        one(imaging::look_of(view, static_cast<int>(i)), kFrame + i, looks[i].picture);
+      }
+      imaging::Compounder(view).mean(view, looks, polar);
+    } else {
+      one(view, kFrame, polar);
     }
+    if (on_screen) imaging::ScanConverter(view, scene.size).grey(view, scene.knobs, polar, picture.grey);
     return true;
+  };
+  const auto on_cpu = [&] {
+    return receive([&](const imaging::UltrasoundView& look, imaging::PolarPicture& received) {
+      imaging::ultrasound_polar(tissue, look, inserted, below_skin_mm, received, displacement);
+    });
   };
   const auto on_gpu = [&](gpu::Context& context) {
     const auto moves =
         tissue::count_sources(displacement) > 0 ? imaging::TissueMoves::yes : imaging::TissueMoves::no;
     imaging::UltrasoundGpu gpu(context, tissue, imaging::LinesBy::machine, moves);
-    if (on_screen)
-      gpu.grey(view, inserted, below_skin_mm, scene.knobs, scene.size, kFrame, picture.grey, displacement);
-    else
-      gpu.polar(view, inserted, below_skin_mm, polar, displacement);
-    return true;
+    return receive([&](const imaging::UltrasoundView& look, imaging::PolarPicture& received) {
+      gpu.polar(look, inserted, below_skin_mm, received, displacement);
+    });
   };
   const bool thesis = view.method == imaging::UltrasoundMethod::thesis;
   if (picture.backend == "reference" || (picture.backend == "gpu" && thesis))
@@ -249,8 +268,8 @@ void ScenePainter::paint_colour(const UltrasoundSceneView& scene, const imaging:
   const tissue::BloodFlow flow = flow_of(structures);
   imaging::ColourPicture colour;
   imaging::colour_polar({&volume_, tissue_->classes, tissue_->echogenicity}, scene.view, inserted,
-                        session::element_depths(tissue_->skin, scene.view, 1, displacement), flow,
-                        scene.colour_mm_s, beat_s, colour, displacement);
+                        session::element_depths(tissue_->skin, scene.view, 1, displacement), flow, scene.console,
+                        beat_s, colour, displacement);
   std::vector<unsigned char> numbers;
   imaging::colour_numbers(imaging::ScanConverter(scene.view, scene.size), scene.knobs, colour, numbers);
   picture.rgb = imaging::in_colour(picture.grey, numbers);
@@ -330,7 +349,7 @@ base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::st
     const auto& view = std::get<UltrasoundSceneView>(*scene.view);
     const tissue::Displacement displacement = displacement_of(scene);
     paint_ultrasound(view, inserted, displacement, picture);
-    if (view.colour_mm_s > 0.0)
+    if (view.console.colour_mm_s > 0.0)
       paint_colour(view, inserted, scene.structures, scene.motion ? scene.motion->beat_s : 0.0, displacement,
                    picture);
   }

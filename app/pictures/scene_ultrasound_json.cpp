@@ -1,6 +1,8 @@
 #include <cmath>
 
 #include "app/pictures/scene_fields_json.h"
+#include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/console.h"
 
 namespace seldinger::app {
@@ -90,6 +92,11 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, bas
   view.range_error = reader.flag("range_error", view.range_error);
   if (reader.has("attenuation_db_cm_mhz"))
     view.attenuation_db_cm_mhz = reader.number("attenuation_db_cm_mhz", 0.0, 20.0);
+  std::vector<std::string> laws;
+  for (const auto& law : cases::kSightLawNames) laws.emplace_back(law.name);
+  const std::string law = reader.choice("sight_law", laws, laws.back().c_str());
+  view.sight_law = *base::from_name(cases::kSightLawNames, law);
+  view.compound_deg = reader.number("compound_deg", 0.0, imaging::kMostCompoundDeg, 0.0);
   view.echogenic_needle = echogenic_needle;
   read_knobs(reader, scene.knobs);
   if (reader.has("size_px")) {
@@ -107,7 +114,10 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, bas
                                            : UltrasoundOutput::display;
   if (reader.has("colour") && reader["colour"].is_object()) {
     SceneReader colour(reader["colour"], "view.colour", error);
-    scene.colour_mm_s = 10.0 * colour.number("scale_cm_s", 2.0, 500.0);
+    scene.console.colour_mm_s = 10.0 * colour.number("scale_cm_s", 2.0, 500.0);
+    scene.console.lean_deg = colour.number("lean_deg", -imaging::kMostLeanDeg, imaging::kMostLeanDeg, 0.0);
+    scene.console.box_across = colour.number("box_across", 0.0, 1.0, 0.0);
+    scene.console.box_down = colour.number("box_down", 0.0, 1.0, 0.0);
     colour.unused(unused);
     if (scene.output != UltrasoundOutput::display) reader.bad("colour", "is of a display");
   } else if (reader.has("colour") && !reader["colour"].is_null()) {

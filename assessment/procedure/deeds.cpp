@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -10,10 +11,12 @@
 #include "assessment/signals/breath_holds.h"
 #include "assessment/signals/signals.h"
 #include "sim/base/vectors.h"
+#include "sim/case/introducer.h"
 
 namespace seldinger::assessment {
 namespace {
 
+using cases::Introducer;
 using When = std::optional<double>;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -114,6 +117,22 @@ HoldCheck check_of(const Signals& signals, const BreathHold& hold, std::size_t f
   return check;
 }
 
+// What an introducer is from when on, by what was said; the first is of before all.
+struct IntroducerFrom {
+  double t_s = 0.0;
+  Introducer is = Introducer::none;
+};
+std::vector<IntroducerFrom> introducer_course(const Signals& signals) {
+  std::vector<IntroducerFrom> course = {{-std::numeric_limits<double>::infinity()}};
+  if (signals.setting.instrument.kind != cases::InstrumentKind::core || signals.poses.empty()) return course;
+  for (const cases::Event& event : *signals.events) {
+    const bool in_body = signals.passages[pose_at(signals, event.t_s)].in_body;
+    const Introducer is = cases::introducer_after(event.kind, in_body, course.back().is);
+    if (is != course.back().is) course.push_back({event.t_s, is});
+  }
+  return course;
+}
+
 }  // namespace
 
 std::optional<double> orientation_tested_s(const Signals& signals, double on_skin_mm) {
@@ -191,19 +210,31 @@ std::optional<double> planned_depth_kept_s(const Signals& signals) {
                                                                         : std::nullopt;
 }
 
-std::optional<double> stylet_exchanged_s(const Signals& signals) {
-  const cases::Shape target = cases::shape_of(*signals.setting.target);
-  bool taken = false;
-  for (const cases::Event& event : *signals.events) {
-    if (event.kind == cases::EventKind::stylet_in) taken = true;
-    if (event.kind != cases::EventKind::stylet_out || !taken) continue;
-    const std::size_t i = pose_at(signals, event.t_s);
-    const glm::dvec3& tip_lps_mm = signals.poses[i].tip_at_rest_lps_mm();
-    if (signals.passages[i].in_body &&
-        cases::signed_distance_mm(target, tip_lps_mm, kExchangeMm + 1.0) <= kExchangeMm)
-      return event.t_s;
+std::optional<double> introducer_used_s(const Signals& signals) {
+  const std::vector<IntroducerFrom> course = introducer_course(signals);
+  for (std::size_t i = 0, at = 0; i < signals.poses.size(); ++i) {
+    while (at + 1 < course.size() && course[at + 1].t_s <= signals.poses[i].t_s) ++at;
+    if (course[at].is == Introducer::closed && signals.passages[i].in_body) return signals.poses[i].t_s;
   }
   return std::nullopt;
+}
+
+std::optional<double> stylet_exchanged_s(const Signals& signals) {
+  const cases::Shape target = cases::shape_of(*signals.setting.target);
+  for (const IntroducerFrom& one : introducer_course(signals)) {
+    if (one.is != Introducer::open) continue;
+    const glm::dvec3& tip_lps_mm = signals.poses[pose_at(signals, one.t_s)].tip_at_rest_lps_mm();
+    if (cases::signed_distance_mm(target, tip_lps_mm, kExchangeMm + 1.0) <= kExchangeMm) return one.t_s;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> fired_on_stylet_s(const Signals& signals) {
+  if (!signals.endpoint) return std::nullopt;
+  Introducer is = Introducer::none;
+  for (const IntroducerFrom& one : introducer_course(signals))
+    if (one.t_s <= signals.endpoint->t_s) is = one.is;
+  return is == Introducer::closed ? std::optional(signals.endpoint->t_s) : std::nullopt;
 }
 
 BreathChecks breath_checks(const Signals& signals) {

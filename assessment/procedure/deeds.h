@@ -33,9 +33,16 @@ std::optional<double> angle_kept_s(const Signals& signals);
 // known, and there is skin.
 std::optional<double> planned_depth_kept_s(const Signals& signals);
 
+// An introducer, its stylet in, was first in the body: one that was put aside before, or refused in tissue, was not
+// used. Events are known, and there is skin.
+std::optional<double> introducer_used_s(const Signals& signals);
+
 // An introducer's stylet was drawn in tissue, its tip at most kExchangeMm from the target's edge, or in it. Events
 // are known, and there are target and skin.
 std::optional<double> stylet_exchanged_s(const Signals& signals);
+
+// The trigger, where it fell while the introducer's stylet was in. Events are known, and there is skin.
+std::optional<double> fired_on_stylet_s(const Signals& signals);
 
 // The check in the held breath and its way back (thesis, appendix A, step 12), of the holds that began with the
 // needle in tissue. Events are known.

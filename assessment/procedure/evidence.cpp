@@ -134,18 +134,6 @@ When at_target(const Signals& signals) {
   });
 }
 
-// What is in the introducer when the trigger falls.
-When fired_on_stylet(const Signals& signals) {
-  if (!signals.endpoint) return std::nullopt;
-  bool in = false;
-  for (const cases::Event& one : *signals.events) {
-    if (one.t_s > signals.endpoint->t_s) break;
-    if (one.kind == EventKind::stylet_in) in = true;
-    if (one.kind == EventKind::stylet_out) in = false;
-  }
-  return in ? When(signals.endpoint->t_s) : std::nullopt;
-}
-
 When fired(const Signals& signals) {
   return signals.endpoint ? When(signals.endpoint->t_s) : std::nullopt;
 }
@@ -270,7 +258,7 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::anaesthetised_unaspirated, "anaesthetic was given with no aspiration in the 15 s before", kSaid,
      &anaesthetised_unaspirated},
     {Evidence::nicked, "the skin was nicked", kSaid, &event<EventKind::nick>},
-    {Evidence::introducer_taken, "an introducer was taken up", kSaid, &event<EventKind::stylet_in>},
+    {Evidence::introducer_used, "an introducer went in", kSaid | kSkin, &introducer_used_s},
     {Evidence::breath_hold_asked, "a held breath was asked for", kSaid, &event<EventKind::breath_hold_request>},
     {Evidence::signed_out, "the sign-out was said", kSaid, &event<EventKind::sign_out>},
     {Evidence::skin_pain, "skin that was not numb was punctured", kSaid, &event<EventKind::pain_skin>},
@@ -292,7 +280,8 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::stylet_exchanged,
      "its stylet was drawn with its tip in tissue, at most 10 mm from the target's edge", kSaid | kTarget | kSkin,
      [](const Signals& signals) { return stylet_exchanged_s(signals); }},
-    {Evidence::fired_on_stylet, "the trigger fell while the introducer's stylet was in", kSaid, &fired_on_stylet},
+    {Evidence::fired_on_stylet, "the trigger fell while the introducer's stylet was in", kSaid | kSkin,
+     &fired_on_stylet_s},
     {Evidence::at_planned_depth,
      "at the trigger the needle was in by the depth that was noted before the first puncture, give or take 10 mm",
      kSaid | kSkin | kCalipers, &planned_depth_kept_s},

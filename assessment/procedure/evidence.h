@@ -23,7 +23,7 @@ enum class Evidence : std::uint8_t {
   anaesthetised,
   anaesthetised_unaspirated,
   nicked,
-  introducer_taken,
+  introducer_used,
   breath_hold_asked,
   signed_out,
   // Answered by the patient.

@@ -66,7 +66,7 @@ constexpr StepInfo kSteps[] = {
      looked_across_needle, fired, none, kAlways, kBullsEye},
     {"exchange_stylet", "Through an introducer: at the target's edge draw its stylet, and go on with the needle",
      kPatient | kEvents | kCoreNeedle | kTarget | kSkin, stylet_exchanged, fired, fired_on_stylet, kAlways, kAround,
-     none, introducer_taken},
+     none, introducer_used},
     {"reach_target", "Reach the target; with a core needle, its edge", kTarget | kSkin, at_target, fired, none,
      kAlways, kTask(10)},
     {"insert_to_depth", "Insert to the planned depth, by the needle's marks",

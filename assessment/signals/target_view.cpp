@@ -15,7 +15,7 @@ constexpr double kWaterPerMm = 0.02269;
 // 5 σ of 15 mm² of the panel at the 30 nGy that automatic exposure keeps; 3 by older laws of sight
 // (sim/imaging/xray/visibility.h).
 double least_contrast(cases::SightLaw law) noexcept {
-  return law == cases::SightLaw::scatter ? 0.05 : 0.03;
+  return law >= cases::SightLaw::scatter ? 0.05 : 0.03;
 }
 
 }  // namespace

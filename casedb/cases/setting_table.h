@@ -169,7 +169,7 @@ inline constexpr auto kSettingRows = [] {
        .field = instrument_kind(),
        .json = "instrument/kind",
        .option = {"--instrument", base::kAlternatives<cases::kInstrumentKindNames>,
-                  "access: the tip decides; core: the fired notch. Another one comes with its own --tip"},
+                  "access: the tip decides; core: the fired notch. Changing it also sets --tip to the usual one"},
        .editor = {.words = "needle", .place = 6, .names = base::kNamesOf<kInstrumentWords>},
        .of_attempts = true},
       {.column = "instrument_tip",

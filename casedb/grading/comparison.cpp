@@ -133,7 +133,8 @@ base::Result<Comparison> compare_attempts(Library& library, const std::string& c
     AttemptGrade grade = grader.look_at(one);
     made.experts = grade.experts;
     made.provisional = grade.provisional;
-    group_of(made.groups, one).attempts.push_back({std::move(one), std::move(grade)});
+    ComparedGroup& group = group_of(made.groups, one);
+    group.attempts.push_back({std::move(one), std::move(grade)});
   }
   std::sort(made.groups.begin(), made.groups.end(), [](const ComparedGroup& a, const ComparedGroup& b) {
     return std::tuple(!a.person_id, a.person_id.value_or(""), a.operator_name) <

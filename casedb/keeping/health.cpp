@@ -47,8 +47,8 @@ std::string_view name_of(Health health) noexcept {
   return "";
 }
 
-HealthWatch::HealthWatch(std::filesystem::path folder, std::uint64_t least_free_bytes)
-    : folder_(std::filesystem::absolute(std::move(folder))), least_free_bytes_(least_free_bytes) {
+HealthWatch::HealthWatch(const std::filesystem::path& folder, std::uint64_t least_free_bytes)
+    : folder_(std::filesystem::absolute(folder)), least_free_bytes_(least_free_bytes) {
   struct stat now {};
   if (::lstat((folder_ / kDatabaseFile).c_str(), &now) == 0) {
     device_ = now.st_dev;

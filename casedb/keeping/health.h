@@ -23,7 +23,7 @@ inline constexpr std::uint64_t kLeastFree_bytes = std::uint64_t{256} << 20;
 class HealthWatch {
  public:
   // Of the library that lies there now.
-  explicit HealthWatch(std::filesystem::path folder, std::uint64_t least_free_bytes = kLeastFree_bytes);
+  explicit HealthWatch(const std::filesystem::path& folder, std::uint64_t least_free_bytes = kLeastFree_bytes);
   // Writes and removes a file of a page; leaves nothing behind.
   Health look() const noexcept;
 

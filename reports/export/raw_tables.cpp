@@ -13,11 +13,11 @@ namespace {
 constexpr const char* kNotInUse = "another modality";
 constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
 constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
-constexpr const char* kNoColour = "off, or another modality";
+constexpr const char* kOff = "off, or another modality";
+constexpr const char* kWholeBox = "the box is nearly all of the picture, or another modality";
 constexpr const char* kAsTheCase = "as the case's picture has it, or another modality";
 constexpr const char* kAtRest = "tissue at the tip is where it is at rest: at the tip";
-constexpr const char* kRestTip =
-    "where the tissue at the tip lies in a patient at rest, as CT, lesions and structures do, LPS";
+constexpr const char* kRestTip = "where the tissue at the tip lies in a patient at rest, as the CT does, LPS";
 constexpr const char* kAttemptName = "key to attempts.csv";
 
 bool core(const casedb::AttemptRow& row) {
@@ -334,8 +334,16 @@ const std::vector<Column<FrameFact>>& frame_columns() {
        [](CsvLine& line, const Fact& f) { place(line, f.console.frequency_mhz != 0.0, f.console.frequency_mhz); }},
       {{"console_slice_mm", "number", "mm", kAsTheCase, "how far beside the probe's plane a slice of the CT lies"},
        [](CsvLine& line, const Fact& f) { place(line, f.console.slice_mm != 0.0, f.console.slice_mm); }},
-      {{"console_colour_mm_s", "number", "mm/s", kNoColour, "colour Doppler: the speed at which it wraps around"},
+      {{"console_colour_mm_s", "number", "mm/s", kOff, "colour Doppler: the speed at which it wraps around"},
        [](CsvLine& line, const Fact& f) { place(line, f.console.colour_mm_s != 0.0, f.console.colour_mm_s); }},
+      {{"console_lean_deg", "number", "deg", kOff, "how far its beams leaned towards the face's last one"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.colour_mm_s != 0.0, f.console.lean_deg); }},
+      {{"console_box_across", "number", "", kWholeBox, "middle of its box, a share of the picture's beams"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.box_across != 0.0, f.console.box_across); }},
+      {{"console_box_down", "number", "", kWholeBox, "and of its depth"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.box_down != 0.0, f.console.box_down); }},
+      {{"console_compound_deg", "number", "deg", kOff, "spatial compounding: how far looks are apart"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.compound_deg != 0.0, f.console.compound_deg); }},
   };
   return columns;
 }

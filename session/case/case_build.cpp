@@ -9,7 +9,7 @@
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/view/organs.h"
 #include "sim/imaging/ultrasound/view/tissue.h"
-#include "sim/volume/tissue/find_tissue.h"
+#include "sim/volume/organs/organ_classes.h"
 
 namespace seldinger::session {
 namespace {
@@ -167,7 +167,7 @@ cases::Case build_case(const casedb::NewCase& made, const cases::Picture& pictur
   scene.picture = picture;
   take_setting(made, scene);
   if (needs != Needs::metrics)
-    scene.classes = volume::tissue_classes(scene.volume, made.labels ? &*made.labels : nullptr);
+    scene.classes = volume::classes_with_organs(scene.volume, made.labels ? &*made.labels : nullptr);
   finish(needs, scene);
   return scene;
 }

@@ -102,7 +102,7 @@ struct FluoroscopySight::Parts {
   // What instruments and contrast medium scatter is next to nothing.
   imaging::Pulse pulse_of(const cases::FluoroscopyState& machine, const Tissue& tissue) {
     imaging::Pulse pulse{machine.last_technique, machine.arm.sid_mm, machine.magnification, machine.collimator};
-    if (scene.sight_law == cases::SightLaw::scatter)
+    if (scene.sight_law >= cases::SightLaw::scatter)
       pulse.scatter =
           imaging::scatter_share(beams, pulse, meter_lengths(machine, geometry(machine, kMeterPx), tissue));
     return pulse;

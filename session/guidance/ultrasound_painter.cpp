@@ -59,7 +59,7 @@ void UltrasoundPainter::receive(const engine::Moment& moment) {
       imaging::needle_pose(scene_.instrument, state.needle.tip_lps_mm, state.needle.direction);
   const auto make = [&] {
     return sight_.polar(probe_in(state), state.probe.console, needle, seed_, pictures_, polar_, moment.displacement,
-                        state.t_s);
+                        state.t_s, LooksOf::last_frames);
   };
   ++pictures_;
   imaging::UltrasoundView view;
@@ -98,6 +98,7 @@ void UltrasoundPainter::develop(ShownPicture& shown) {
   shown.pixel_mm = converter_->pixel_mm();
   shown.top_mm = converter_->top_mm();
   shown.console = {cine->view.depth_mm, cine->view.focus_mm, imaging::working_mhz(cine->view)};
+  shown.console.compound_deg = cine->view.compound_deg;
   if (cine->colour) shown.console.colour_mm_s = cine->colour->scale_mm_s;
   shown.t_s = cine->t_s;
   shown.cine_back = console_.scrolled();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "assessment/operators/probe_over.h"
 #include "sim/base/check.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/mirror.h"
 
@@ -18,6 +20,7 @@ constexpr double kScreenHz = 60.0;
 // A hand presses the face in until its ends touch too: a curved one's rise 10 mm above its middle (design). Where
 // tissue does not yield the picture begins so much deeper.
 constexpr double kPressCurvedMm = 10.0, kPressStraightMm = 3.0;
+constexpr double kStaleLooksS = 0.5;   // looks that old are not laid over a new one
 constexpr double kBesideFaceMm = 3.0;  // room for the needle
 constexpr double kWayStepMm = 4.0, kNearSkinMm = 12.0, kNearSkinStepMm = 1.0;
 
@@ -205,19 +208,53 @@ struct UltrasoundSight::Screen {
   imaging::PolarPicture polar;
 };
 
+struct UltrasoundSight::Compounded {
+  explicit Compounded(const imaging::UltrasoundView& view) : compounder(view) {}
+  imaging::Compounder compounder;
+  std::array<imaging::Look, imaging::kLooks> looks;
+  double t_s = 0.0;    // of the newest
+  bool whole = false;  // there are all of them
+};
+
 imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                                const imaging::NeedlePose& needle, std::uint64_t seed,
                                                std::uint64_t frame, imaging::PolarPicture& picture,
-                                               const tissue::Displacement& displacement, double t_s) const {
+                                               const tissue::Displacement& displacement, double t_s,
+                                               LooksOf looks) {
   imaging::UltrasoundView view = held(view_of(scene_.picture, console), probe);
   view.method = method_;
   const std::vector<float> depths = element_depths(scene_.skin_index, view, 1, displacement);
   const tissue::Displacement moved = drawn(view, displacement, t_s);
-  if (gpu_)
-    gpu_->polar(view, {needle, scene_.lesions}, depths, picture, moved);
-  else
-    imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, depths, picture, moved);
-  imaging::add_receiver_noise(seed, frame, picture);
+  const auto receive = [&](const imaging::UltrasoundView& look, std::uint64_t number,
+                           imaging::PolarPicture& received) {
+    if (gpu_)
+      gpu_->polar(look, {needle, scene_.lesions}, depths, received, moved);
+    else
+      imaging::ultrasound_polar(tissue_, look, {needle, scene_.lesions}, depths, received, moved);
+    imaging::add_clutter(look, depths, received);
+    imaging::add_receiver_noise(seed, number, received);
+  };
+  if (!(view.compound_deg > 0.0)) {
+    compounded_.reset();
+    receive(view, frame, picture);
+    return view;
+  }
+  bool all = looks == LooksOf::one_moment;
+  if (!compounded_ || !compounded_->compounder.is_of(view)) {
+    compounded_ = std::make_shared<Compounded>(view);
+  }
+  // After a leap, or a picture that could not be made, all are of one moment.
+  const double since_s = t_s - compounded_->t_s;
+  all = all || !std::exchange(compounded_->whole, false) || !(since_s >= 0.0 && since_s < kStaleLooksS);
+  for (std::size_t i = 0; i < compounded_->looks.size(); ++i)
+    if (all || frame % imaging::kLooks == i) {
+      compounded_->looks[i].depth_below_skin_mm = depths;
+      receive(imaging::look_of(view, static_cast<int>(i)), frame * imaging::kLooks + i,
+              compounded_->looks[i].picture);
+    }
+  compounded_->whole = true;
+  compounded_->t_s = t_s;
+  compounded_->compounder.mean(view, compounded_->looks, picture);
   return view;
 }
 
@@ -235,8 +272,8 @@ std::optional<imaging::ColourPicture> UltrasoundSight::colour(const cases::ToolP
   const imaging::UltrasoundView view = held(view_of(scene_.picture, console), probe);
   imaging::ColourPicture colour;
   imaging::colour_polar(tissue_, view, {needle, scene_.lesions},
-                        element_depths(scene_.skin_index, view, 1, displacement), flow_, console.colour_mm_s, t_s,
-                        colour, drawn(view, displacement, t_s));
+                        element_depths(scene_.skin_index, view, 1, displacement), flow_, console, t_s, colour,
+                        drawn(view, displacement, t_s));
   return colour;
 }
 

@@ -52,6 +52,9 @@ inline cases::ToolPose probe_in(const cases::State& state) noexcept {
 // The picture's view as the console stands, without a pose.
 imaging::UltrasoundView console_view(const cases::Picture& picture, const cases::ConsoleSetting& console);
 
+// Whether the looks of a compounded picture (sim/imaging/ultrasound/compound.h) are of one moment.
+enum class LooksOf { one_moment, last_frames };
+
 class UltrasoundSight {
  public:
   // The scene has its tissue (Needs::ultrasound; CHECK) and outlives it.
@@ -66,12 +69,13 @@ class UltrasoundSight {
   imaging::UltrasoundVisible see(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                  const imaging::NeedlePose& needle,
                                  const tissue::Displacement& displacement = {}) const;
-  // What the machine receives there, with its noise; answers how it looked. Arteries are as wide as the heart's
-  // beat has them at `t_s` of the attempt; what is told (see) does not ask for that.
+  // What the machine receives there, with its noise; answers how it looked. Of a compounded picture a live machine
+  // makes one look, by the frame's number, and shows it with the last two; else all are of this moment. Arteries
+  // are as wide as the heart's beat has them at `t_s` of the attempt; what is told (see) does not ask for that.
   imaging::UltrasoundView polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                 const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
                                 imaging::PolarPicture& picture, const tissue::Displacement& displacement = {},
-                                double t_s = 0.0) const;
+                                double t_s = 0.0, LooksOf looks = LooksOf::one_moment);
   // What colour Doppler shows over such a picture; nothing while it is off.
   std::optional<imaging::ColourPicture> colour(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                                const imaging::NeedlePose& needle, double t_s,
@@ -88,7 +92,8 @@ class UltrasoundSight {
                       const tissue::Displacement& displacement = {}, double t_s = 0.0);
 
  private:
-  struct Screen;  // what pictures need beside the tissue, made with the first
+  struct Screen;      // what pictures need beside the tissue, made with the first
+  struct Compounded;  // the last looks of a compounded picture
   // console_view under the scene's law of sight.
   imaging::UltrasoundView view_of(const cases::Picture& picture, const cases::ConsoleSetting& console) const;
   // In pictures: with the pulse, where the scene's law has it (imaging::shows_artefacts).
@@ -101,6 +106,7 @@ class UltrasoundSight {
   imaging::TissueVolume tissue_;
   tissue::BloodFlow flow_;
   std::shared_ptr<Screen> screen_;
+  std::shared_ptr<Compounded> compounded_;
   imaging::UltrasoundMethod method_ = imaging::UltrasoundMethod::scatterers;
   std::shared_ptr<imaging::UltrasoundGpu> gpu_;
 };

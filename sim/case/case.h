@@ -76,11 +76,14 @@ inline constexpr auto kModalityNames =
 enum class SightLaw {
   half_slice,  // the tip within half the slice's width at any tilt, a target of any size by its contrast
   echo,        // the tip by its echo alone, a target by contrast and size
-  scatter      // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
+  scatter,     // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
+  clutter      // with clutter in ultrasound (docs/decisions/0090); what is told stays as it is
 };
-inline constexpr auto kSightLawNames = base::names<SightLaw>(
-    {{SightLaw::half_slice, "half_slice"}, {SightLaw::echo, "echo"}, {SightLaw::scatter, "scatter"}});
-inline constexpr SightLaw kNewestSightLaw = SightLaw::scatter;
+inline constexpr auto kSightLawNames = base::names<SightLaw>({{SightLaw::half_slice, "half_slice"},
+                                                              {SightLaw::echo, "echo"},
+                                                              {SightLaw::scatter, "scatter"},
+                                                              {SightLaw::clutter, "clutter"}});
+inline constexpr SightLaw kNewestSightLaw = SightLaw::clutter;
 
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.

@@ -32,8 +32,7 @@ constexpr EventInfo kKinds[] = {
      "calipers were set in the picture from the skin down, and tell how deep they end"},
     {stylet_out, trainee, "stylet_out", "drew the stylet",
      "the needle is open: what its tip lies in runs back; of a core needle it is the introducer's, which stays "
-     "where "
-     "it is"},
+     "where it is"},
     {stylet_in, trainee, "stylet_in", "put the stylet back",
      "the needle is closed again; a core needle's introducer is taken up, or pushed on"},
     {inject, trainee, "inject", "injected contrast",

@@ -85,8 +85,12 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
   if (const ConsoleSetting& console = state.probe.console; !(console == ConsoleSetting{})) {
     for (const double value : {console.depth_mm, console.focus_mm, console.frequency_mhz, console.slice_mm})
       add(value);
-    // Whoever leaves it off has the hash of before there was any.
+    // Whoever leaves these off has the hash of before there were any.
     if (console.colour_mm_s != 0.0) add(console.colour_mm_s);
+    if (console.compound_deg != 0.0 || console.lean_deg != 0.0 || console.box_across != 0.0 ||
+        console.box_down != 0.0)
+      for (const double value : {console.compound_deg, console.lean_deg, console.box_across, console.box_down})
+        add(value);
   }
   if (state.flow.in_use) hash = hash_of(state.flow, hash);
   return state.fluoroscopy.in_use ? hash_of(state.fluoroscopy, hash) : hash;

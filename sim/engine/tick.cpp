@@ -23,16 +23,6 @@ void note_capsule(const haptics::HeldNeedleState& needle, TickState& now) noexce
   now.capsule_n = taken_n;
 }
 
-// Taken up outside the body, its stylet in; drawn there, it is put aside. In the body it stays once its stylet is
-// drawn, and goes on with the needle once that is in again.
-haptics::Introducer introducer_after(cases::EventKind said, bool in_body, haptics::Introducer now) noexcept {
-  using haptics::Introducer;
-  if (said == cases::EventKind::stylet_in) return in_body && now == Introducer::none ? now : Introducer::closed;
-  if (said == cases::EventKind::stylet_out && now == Introducer::closed)
-    return in_body ? Introducer::open : Introducer::none;
-  return now;
-}
-
 }  // namespace
 
 Moment moment_of(const TickState& now) noexcept {
@@ -75,7 +65,12 @@ std::optional<cases::ForceSample> Tick::feel(double elapsed_s, TickState& now) c
   bring_to_rest(now, needle);
   bring_to_rest(now, probe);
   const haptics::HandForces forces = hands_->advance({probe, needle}, elapsed_s, now.hands);
-  if (forces[kNeedleHand].ruptured) note_capsule(now.hands[kNeedleHand].needle, now);
+  const haptics::HeldNeedleState& held = now.hands[kNeedleHand].needle;
+  if (forces[kNeedleHand].ruptured) note_capsule(held, now);
+  // In beside the hole in which the introducer stood: that one is left.
+  if (now.introducer == haptics::Introducer::open && held.skin.in_body && held.track.opened > 0 &&
+      held.track.sheath_mm == 0.0)
+    now.introducer = haptics::Introducer::none;
   const glm::dvec3& needle_n = forces[kNeedleHand].wanted_n;
   const double axial_n = -glm::dot(needle_n, needle.pose.axis);
   return cases::ForceSample{state.t_s, axial_n, glm::length(needle_n + axial_n * needle.pose.axis),
@@ -101,7 +96,7 @@ cases::RecordedTick Tick::advance(const cases::Inputs& inputs, double dt_s, Tick
   if (tick.reaction != cases::EventKind::none) now.reaction = {tick.reaction, state.t_s};
   if (inputs.event != cases::EventKind::none) now.event = {inputs.event, state.t_s};
   if (scene_.instrument.kind == cases::InstrumentKind::core)
-    now.introducer = introducer_after(inputs.event, state.needle.skin.in_body, now.introducer);
+    now.introducer = cases::introducer_after(inputs.event, state.needle.skin.in_body, now.introducer);
   now.force = feel(dt_s, now);
   // Before a core needle's throw, in the same tick, drags what the trigger found.
   if (state.fire.fired && !fired)

@@ -14,7 +14,7 @@ bool usable(const TickState& now) noexcept {
     return kind == cases::EventKind::none || cases::find_event(kind) != nullptr;
   };
   const auto known_introducer = [](haptics::Introducer introducer) {
-    return static_cast<int>(introducer) >= 0 && static_cast<int>(introducer) < haptics::kIntroducers;
+    return static_cast<int>(introducer) >= 0 && static_cast<int>(introducer) < cases::kIntroducers;
   };
   if (!known_introducer(now.introducer)) return false;
   for (const haptics::HandState& hand : now.hands) {

@@ -23,7 +23,7 @@ concept Is = std::same_as<std::remove_const_t<S>, T>;
 SELDINGER_FIELDS(cases::ToolPose, position, axis, side)
 SELDINGER_FIELDS(cases::SkinPassage, tip, depth, asked, triangle, inside, in_body, entry)
 SELDINGER_FIELDS(cases::NeedleState, tip, direction, skin, inserted)
-SELDINGER_FIELDS(cases::ConsoleSetting, depth, focus, frequency, slice, colour)
+SELDINGER_FIELDS(cases::ConsoleSetting, depth, focus, frequency, slice, colour, compound, lean, across, down)
 SELDINGER_FIELDS(cases::ProbeState, origin, axial, lateral, frozen, console)
 SELDINGER_FIELDS(cases::BreathState, phase, breath, asked, failed, held, cough, holds, hold_off)
 SELDINGER_FIELDS(cases::PatientBreath, state, asked, moves, level)

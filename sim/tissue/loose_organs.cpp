@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -32,29 +33,39 @@ std::vector<LooseOrgan> loose_organs(const cases::Case& scene) {
   if (scene.classes.size() != volume.hu.size() || scene.skin.vertices_lps_mm.empty()) return {};
   const double middle_mm = middle_x_mm(scene.skin);
   struct Sum {
-    glm::dvec3 lps_mm{0.0};
-    double voxels = 0.0;
+    std::array<std::int64_t, 3> ijk{};
+    std::int64_t voxels = 0;
   };
   std::array<std::array<Sum, 2>, kLoose.size()> sums{};
+  std::array<int, 256> of_class;  // asked of every voxel
+  of_class.fill(-1);
+  for (std::size_t which = 0; which < kLoose.size(); ++which)
+    of_class[static_cast<std::size_t>(kLoose[which])] = static_cast<int>(which);
   std::size_t at = 0;
   for (int k = 0; k < volume.size_voxels.z; ++k)
     for (int j = 0; j < volume.size_voxels.y; ++j)
       for (int i = 0; i < volume.size_voxels.x; ++i, ++at) {
-        const auto* which = std::find(kLoose.begin(), kLoose.end(), scene.classes[at]);
-        if (which == kLoose.end()) continue;
-        const glm::dvec3 p_lps_mm(volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0));
-        const bool left = *which == TissueClass::kidney && p_lps_mm.x > middle_mm;
-        Sum& sum = sums[static_cast<std::size_t>(which - kLoose.begin())][left ? 1 : 0];
-        sum.lps_mm += p_lps_mm;
-        sum.voxels += 1.0;
+        const int which = of_class[static_cast<std::size_t>(scene.classes[at])];
+        if (which < 0) continue;
+        const bool left = kLoose[static_cast<std::size_t>(which)] == TissueClass::kidney &&
+                          (volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0)).x > middle_mm;
+        Sum& sum = sums[static_cast<std::size_t>(which)][left ? 1 : 0];
+        sum.ijk[0] += i;
+        sum.ijk[1] += j;
+        sum.ijk[2] += k;
+        ++sum.voxels;
       }
   const double voxel_mm3 = std::abs(glm::determinant(glm::dmat3(volume.lps_from_voxel)));
   std::vector<LooseOrgan> organs;
   for (std::size_t which = 0; which < kLoose.size(); ++which)
     for (const Sum& sum : sums[which]) {
-      const double mm3 = sum.voxels * voxel_mm3;
+      const auto voxels = static_cast<double>(sum.voxels);
+      const double mm3 = voxels * voxel_mm3;
       if (mm3 < 1000.0 * kLeastMl) continue;
-      organs.push_back({kLoose[which], sum.lps_mm / sum.voxels, std::cbrt(0.75 * mm3 / std::numbers::pi)});
+      const glm::dvec4 middle(static_cast<double>(sum.ijk[0]) / voxels, static_cast<double>(sum.ijk[1]) / voxels,
+                              static_cast<double>(sum.ijk[2]) / voxels, 1.0);
+      organs.push_back(
+          {kLoose[which], glm::dvec3(volume.lps_from_voxel * middle), std::cbrt(0.75 * mm3 / std::numbers::pi)});
     }
   return organs;
 }

@@ -103,6 +103,8 @@ TEST_F(TrainConsoleTest, DepthAndFrequencyAreTheTraineesAndStandInTheAttempt) {
   };
   EXPECT_FALSE(is_coloured(grey));
   EXPECT_TRUE(is_coloured(guidance()));
+  press("z");
+  ASSERT_TRUE(fixtures::until([&] { return now().value("compound_deg", 0.0) == 12.0; })) << now();
   const Json last = now();
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   Json shown;
@@ -115,6 +117,7 @@ TEST_F(TrainConsoleTest, DepthAndFrequencyAreTheTraineesAndStandInTheAttempt) {
   EXPECT_DOUBLE_EQ(end.focus_mm, last["focus_mm"].get<double>());
   EXPECT_DOUBLE_EQ(end.frequency_mhz, last["frequency_mhz"].get<double>());
   EXPECT_EQ(end.colour_mm_s, 200.0);
+  EXPECT_EQ(end.compound_deg, 12.0);
 }
 
 // The knobs of the attempt before say nothing of this one's picture.

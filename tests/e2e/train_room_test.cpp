@@ -145,7 +145,7 @@ TEST_F(TrainRoomTest, WhatIsSaidShowsThatItIsDoneAndWhatItDid) {
   press("F6");
   EXPECT_TRUE(comes("nicked where the needle points")) << now();
   press("slash");
-  EXPECT_TRUE(comes("In your hand is the needle’s introducer, its stylet in: it is wider.")) << now();
+  EXPECT_TRUE(comes("You now hold the introducer, its stylet in. It is wider than the needle.")) << now();
   press("slash");
   EXPECT_TRUE(comes("The introducer is put aside.")) << now();
   press("F7");

@@ -57,15 +57,19 @@ std::string said_words(const Said& said) {
       return "The skin is nicked where the needle points at it.";
     case EventKind::stylet_out:
       if (said.core)
-        return said.needle_in ? "The introducer stays, its stylet out: the needle slides in it."
-                              : "The introducer is put aside.";
+        return said.needle_in
+                   ? "The stylet is out. The introducer stays where it is, and the needle slides through it."
+                   : "The introducer is put aside.";
       return "The stylet is out: watch what comes back.";
     case EventKind::stylet_in:
       if (said.core && said.needle_in)
         return said.introducer == haptics::Introducer::none
                    ? "The needle is in tissue: draw it out before you take an introducer."
                    : "The introducer’s stylet is in again: what you push now is the introducer.";
-      if (said.core) return "In your hand is the needle’s introducer, its stylet in: it is wider.";
+      if (said.core)
+        return said.introducer == haptics::Introducer::none
+                   ? "You now hold the introducer, its stylet in. It is wider than the needle."
+                   : "The introducer is out again, its stylet in.";
       return "The stylet is in again.";
     case EventKind::inject:
       return said.needle_in ? "Contrast is injected: " + whole_ml(engine::kPushMl) + "."

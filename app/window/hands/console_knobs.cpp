@@ -5,6 +5,7 @@
 
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/view/view.h"
 #include "sim/tissue/blood_flow.h"
 
@@ -38,7 +39,8 @@ std::string colour_words(std::span<const cases::Structure> structures) {
       "colour Doppler (V): red flows towards the probe, blue away from it; flow across the beam does not show";
   if (flow.empty()) return words + "\nof no vessel in this case is the flow known";
   words += list("\nit shows the flow in", flow.names());
-  return flow.unknown().empty() ? words : list(words + "\nhow blood flows is not known in", flow.unknown());
+  if (!flow.unknown().empty()) words = list(words + "\nhow blood flows is not known in", flow.unknown());
+  return words + "\ndrag its box over the picture; a double click makes it large again";
 }
 
 void ConsoleKnobs::begin(const cases::Picture& picture) {
@@ -68,7 +70,7 @@ void ConsoleKnobs::choose(int preset) {
   preset_ = preset;
   if (preset <= 0) return;
   const imaging::ConsolePreset& chosen = presets_[static_cast<std::size_t>(preset)];
-  asked_ = {chosen.depth_mm, chosen.focus_mm, chosen.frequency_mhz, 0.0};
+  asked_ = {chosen.depth_mm, chosen.focus_mm, chosen.frequency_mhz};
   screen.dynamic_range_db = chosen.dynamic_range_db;
 }
 
@@ -97,8 +99,22 @@ void ConsoleKnobs::set_colour_mm_s(double colour_mm_s) {
   asked_.colour_mm_s = colour_mm_s > 0.0 ? imaging::colour_scale_mm_s(view(), colour_mm_s) : 0.0;
 }
 
+void ConsoleKnobs::set_lean_deg(double lean_deg) {
+  const double most_deg = imaging::most_lean_deg(view());
+  asked_.lean_deg = std::clamp(lean_deg, -most_deg, most_deg);
+}
+
+void ConsoleKnobs::place_box(double across, double down) {
+  asked_.box_across = std::clamp(across, 0.0, 1.0);
+  asked_.box_down = std::clamp(down, 0.0, 1.0);
+}
+
+void ConsoleKnobs::set_compounding(bool on) {
+  asked_.compound_deg = on ? imaging::kCompoundDeg : 0.0;
+}
+
 void ConsoleKnobs::turn(ConsoleTurn turned, bool frozen) {
-  if (frozen && turned <= ConsoleTurn::colour) return;
+  if (frozen && turned <= ConsoleTurn::compound) return;
   const bool ultrasound = picture_.modality == cases::Modality::ultrasound;
   const imaging::UltrasoundView stands = ultrasound ? view() : imaging::UltrasoundView{};
   const auto depth_step_mm = [&](bool more) {
@@ -127,6 +143,8 @@ void ConsoleKnobs::turn(ConsoleTurn turned, bool frozen) {
       return set_slice_mm(next(asked_.slice_mm, kSliceMm, true));
     case ConsoleTurn::colour:
       return set_colour_mm_s(asked_.colour_mm_s > 0.0 ? 0.0 : kColourMmS);
+    case ConsoleTurn::compound:
+      return set_compounding(asked_.compound_deg == 0.0);
     case ConsoleTurn::gain_less:
     case ConsoleTurn::gain_more:
       screen.gain_db = turned_db(screen.gain_db, turned == ConsoleTurn::gain_more ? kGainDb : -kGainDb,

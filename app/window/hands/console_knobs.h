@@ -27,6 +27,7 @@ enum class ConsoleTurn : std::uint8_t {
   slice_back,
   slice_on,  // and of slices, likewise
   colour,    // of ultrasound again
+  compound,
   gain_less,
   gain_more,
   range_less,
@@ -56,7 +57,11 @@ class ConsoleKnobs {
   void set_frequency_mhz(double frequency_mhz);
   void set_slice_mm(double slice_mm);
   void set_colour_mm_s(double colour_mm_s);  // 0: off
-  imaging::UltrasoundView view() const;      // as it stands, without a pose; ultrasound only (CHECKed)
+  void set_lean_deg(double lean_deg);        // of colour's beams
+  // The middle of colour's box, as shares of the picture (ConsoleSetting::box_across); 0: nearly all of it.
+  void place_box(double across, double down);
+  void set_compounding(bool on);
+  imaging::UltrasoundView view() const;  // as it stands, without a pose; ultrasound only (CHECKed)
 
   // Those of the probe at hand. What none of them is, the knobs made.
   const std::vector<imaging::ConsolePreset>& presets() const noexcept { return presets_; }

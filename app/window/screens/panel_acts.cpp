@@ -47,8 +47,10 @@ bool asked_for(const Saying& saying, const cases::Case& scene) {
 
 constexpr float kPlannedPx = 190.0F;  // wide: the slider of the planned depth
 
-// With a tick once it is done, and how often where that is more than once.
-std::string done_label(const Saying& saying, int times) {
+// With a tick once it is done, and how often where that is more than once; an introducer's by what comes next.
+std::string done_label(const Saying& saying, int times, haptics::Introducer introducer) {
+  if (saying.kind == EventKind::stylet_in && introducer != haptics::Introducer::none)
+    return introducer == haptics::Introducer::closed ? "/  Stylet out" : "/  Stylet in";
   if (times == 0) return saying.label;
   return "✓ " + std::string(saying.label) + (times > 1 ? " (" + std::to_string(times) + "×)" : "");
 }
@@ -89,8 +91,11 @@ void ActsPanel::say(PersonAttempt& attempt, const Seen& seen, bool flipped, Even
   if (kind == EventKind::note_plan) length_mm = planned_mm_;
   if ((kind == EventKind::anaesthetic || kind == EventKind::aspirate) && needle.skin.in_body)
     length_mm = needle.inserted_mm;
-  if (!attempt.say(kind, length_mm)) return answer(seen, "Too much at once: say it again.");
-  ++done_[kind];
+  // None is taken up in tissue: the words say so, and nothing is done.
+  const bool refused =
+      core && kind == EventKind::stylet_in && needle.skin.in_body && introducer == haptics::Introducer::none;
+  if (!refused && !attempt.say(kind, length_mm)) return answer(seen, "Too much at once: say it again.");
+  if (!refused) ++done_[kind];
   std::string words = said_words({kind, length_mm, flipped, needle.skin.in_body, core, introducer});
   if (words.empty())
     if (const cases::EventInfo* info = cases::find_event(kind)) words = info->words;  // a mentor's
@@ -218,7 +223,7 @@ void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped, const dev
     if (!asked_for(saying, scene)) continue;
     const bool plan = saying.kind == EventKind::note_plan && scene.picture.modality != cases::Modality::xray;
     const auto done = done_.find(saying.kind);
-    const std::string label = done_label(saying, done == done_.end() ? 0 : done->second);
+    const std::string label = done_label(saying, done == done_.end() ? 0 : done->second, seen.moment.introducer);
     const float own = ImGui::CalcTextSize(label.c_str()).x + scaled(24.0F);
     float wide = own + (plan ? scaled(kPlannedPx + 8.0F) : 0.0F);
     if (used > 0.0F && used + wide < room) ImGui::SameLine();

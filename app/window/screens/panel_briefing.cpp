@@ -158,7 +158,7 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   if (!row.clinic.indication.empty()) ImGui::TextWrapped("%s", row.clinic.indication.c_str());
   fact("Guidance", modality_words(row.modality));
   if (row.modality != cases::Modality::xray) fact("Approach", reports::approach_text(row.approach));
-  if (row.modality == cases::Modality::xray && row.sight_law == cases::SightLaw::scatter)
+  if (row.modality == cases::Modality::xray && row.sight_law >= cases::SightLaw::scatter)
     fact("Field", "scatter from the patient veils the picture; narrowing the collimator makes it clearer");
   fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
   fact("Needle tip", std::string(base::name_of(casedb::kTipWords, row.touch.tip)));

@@ -20,7 +20,7 @@ struct TurningKey {
   int key;
   ConsoleTurn turn;
 };
-constexpr std::array<TurningKey, 14> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
+constexpr std::array<TurningKey, 15> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
                                                          {kDown, ConsoleTurn::depth_more},
                                                          {'[', ConsoleTurn::focus_less},
                                                          {']', ConsoleTurn::focus_more},
@@ -33,6 +33,7 @@ constexpr std::array<TurningKey, 14> kUltrasoundKeys = {{{kUp, ConsoleTurn::dept
                                                          {'B', ConsoleTurn::next_map},
                                                          {'X', ConsoleTurn::flip},
                                                          {'V', ConsoleTurn::colour},
+                                                         {'Z', ConsoleTurn::compound},
                                                          {'C', ConsoleTurn::next_preset}}};
 constexpr std::array<TurningKey, 3> kSliceKeys = {
     {{kUp, ConsoleTurn::slice_back}, {kDown, ConsoleTurn::slice_on}, {'C', ConsoleTurn::next_window}}};
@@ -163,6 +164,13 @@ bool MonitorPanel::draw_beam_knobs(float wide) {
 }
 
 void MonitorPanel::draw_colour_knobs(float wide) {
+  bool compound = knobs_.asked().compound_deg > 0.0;
+  if (ImGui::Checkbox("compound", &compound)) knobs_.set_compounding(compound);
+  note_item("compound");
+  tip("spatial compounding (Z): three looks, from the middle and from either side, are averaged.\n"
+      "Speckle and the shadows of edges are evened out; what moves is blurred: each picture is\n"
+      "one new look, shown with the last two");
+  ImGui::SameLine();
   bool colour = knobs_.asked().colour_mm_s > 0.0;
   if (ImGui::Checkbox("colour", &colour)) knobs_.turn(ConsoleTurn::colour, false);
   note_item("colour");
@@ -174,6 +182,14 @@ void MonitorPanel::draw_colour_knobs(float wide) {
            "± %.0f cm/s", 0.19F * wide))
     knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));
   tip("the speed at which colours wrap around; a deeper picture allows less");
+  ImGui::SameLine();
+  const double most_lean_deg = imaging::most_lean_deg(knobs_.view());
+  if (most_lean_deg == 0.0) return;
+  double lean_deg = knobs_.asked().lean_deg;
+  if (knob("##lean", lean_deg, -most_lean_deg, most_lean_deg, "lean %+.0f°", 0.19F * wide))
+    knobs_.set_lean_deg(std::round(lean_deg));
+  note_item("lean");
+  tip("colour's beams lean, + to the right of a picture that is not flipped: then flow along the face shows, too");
   ImGui::SameLine();
 }
 
@@ -344,12 +360,13 @@ void MonitorPanel::draw_fluoroscope(session::Monitor& monitor, cases::Fluoroscop
   ImGui::SameLine();
   knob("##along", asked.collimator.open_v, cases::kCollimatorMin, 1.0, "along %.2f", 0.21F * wide);
   ImGui::SameLine();
-  static constexpr const char* kPanels[] = {"ideal", "flat panel", "intensifier"};
+  static constexpr const char* kPanels[] = {"ideal", "panel", "II"};
   static_assert(std::size(kPanels) == imaging::kPanelNames.size());
   ImGui::SetNextItemWidth(0.17F * wide);
   if (ImGui::Combo("##panel", &panel_, kPanels, static_cast<int>(std::size(kPanels)))) tell(monitor);
   note_item("panel");
-  tip("detector: an ideal one; a flat panel, in which 5 % of the picture before is left; an image intensifier, "
+  tip("detector: an ideal one; a flat panel, in which 5 % of the picture before is left; an image intensifier "
+      "(II), "
       "whose glare veils 5 %");
   if (asked.automatic_exposure) return;
   // Technique, by hand.

@@ -44,6 +44,7 @@ void MonitorPanel::begin(const cases::Case& scene) {
   fire_words_ = fire_words(scene.instrument);
   machine_ = scene.fluoroscope;
   machine_state_ = {};
+  panel_ = 0;
   shown_ = {};
   knobs_.begin(scene.picture);
   colour_words_ = colour_words(scene.structures);
@@ -233,7 +234,23 @@ void MonitorPanel::draw_guide(const devices::ProbeGuide& guide, float left, floa
   note_part("guide line", left, top, across, down);
 }
 
-void MonitorPanel::draw_picture(const Seen& seen, float width, float height) {
+// The picture's item is the last one. Dragged, colour's box has its middle there; twice clicked, it is nearly all
+// of the picture again.
+void MonitorPanel::move_colour_box(float left, float top, float zoom) {
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    return knobs_.place_box(0.0, 0.0);
+  if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(ImGuiMouseButton_Left)) return;
+  const ImVec2 mouse = ImGui::GetMousePos();
+  const glm::dvec2 at_mm =
+      mm_of(shown_, knobs_.screen.flip, {(mouse.x - left) / zoom - 0.5F, (mouse.y - top) / zoom - 0.5F});
+  const imaging::UltrasoundView view = knobs_.view();
+  const imaging::BeamAndDepth at = imaging::beam_and_depth(view, at_mm.x, at_mm.y);
+  constexpr double kInside = 0.01;  // 0 would be all of it
+  knobs_.place_box(std::clamp((at.beam + 0.5) / view.beams, kInside, 1.0),
+                   std::clamp(at.depth_mm / view.depth_mm, kInside, 1.0));
+}
+
+void MonitorPanel::draw_picture(const Seen& seen, float width, float height, bool turns) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("picture", {width, height});
   note_item("picture");
@@ -256,7 +273,10 @@ void MonitorPanel::draw_picture(const Seen& seen, float width, float height) {
   draw->AddRectFilled({high.x, low.y}, {end.x, high.y}, kNothing);
   draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture().name())), low, high);
   if (shown_.pixel_mm > 0.0) {
-    measure(low.x, low.y, zoom);  // first: it asks for the picture's own item
+    if (turns && !frozen_ && !measuring_ && kind_.modality == cases::Modality::ultrasound &&
+        knobs_.asked().colour_mm_s > 0.0)
+      move_colour_box(low.x, low.y, zoom);  // first: both ask for the picture's own item
+    measure(low.x, low.y, zoom);
     draw_marks(low.x, low.y, zoom);
     if (seen.guide) draw_guide(*seen.guide, low.x, low.y, zoom);
   }
@@ -302,7 +322,7 @@ void MonitorPanel::draw(session::Monitor& monitor, const Seen& seen, bool lamps,
   if (xray && told != nullptr) read_fluoroscope(keys, told->fluoroscope);
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float lines = 1.0F + (lamps ? 1.0F : 0.0F) + (xray ? 2.0F : 0.0F);
-  draw_picture(seen, room.x, room.y - lines * ImGui::GetTextLineHeightWithSpacing());
+  draw_picture(seen, room.x, room.y - lines * ImGui::GetTextLineHeightWithSpacing(), told != nullptr);
   draw_status(monitor, state);
   if (lamps) draw_lamps(seen.frame);
   if (xray) draw_exposure(machine_state_);

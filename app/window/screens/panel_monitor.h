@@ -51,7 +51,8 @@ class MonitorPanel {
  private:
   void read_keys(session::Monitor& monitor, bool frozen, bool watched, const Keys& keys);
   void put_on_screen();  // what is shown now
-  void draw_picture(const Seen& seen, float width, float height);
+  void draw_picture(const Seen& seen, float width, float height, bool turns);
+  void move_colour_box(float left, float top, float zoom);
   void draw_guide(const devices::ProbeGuide& guide, float left, float top, float zoom);
   void draw_flash(const cases::State& state, float left, float top, float width, float height);
   void draw_lamps(const std::optional<cases::FrameTruth>& frame);

@@ -27,6 +27,10 @@ std::string json_of(const TraceLine& line) {
                  {"frequency_mhz", line.console.frequency_mhz},
                  {"slice_mm", line.console.slice_mm},
                  {"colour_mm_s", line.console.colour_mm_s},
+                 {"compound_deg", line.console.compound_deg},
+                 {"lean_deg", line.console.lean_deg},
+                 {"box_across", line.console.box_across},
+                 {"box_down", line.console.box_down},
                  {"gain_db", line.gain_db},
                  {"needle_lps_mm", {line.needle_lps_mm.x, line.needle_lps_mm.y, line.needle_lps_mm.z}},
                  {"probe_lps_mm", {line.probe_lps_mm.x, line.probe_lps_mm.y, line.probe_lps_mm.z}}});

@@ -11,9 +11,9 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 8, kFormatWithoutColour = 7, kFormatWithoutPauses = 6, kFormatWithoutConsole = 5,
-                        kFormatWithoutEvents = 4, kFormatWithoutForces = 3, kFormatWithoutNearPlane = 2,
-                        kFormatWithoutFluoroscope = 1;
+constexpr std::uint32_t kFormat = 9, kFormatWithoutSteering = 8, kFormatWithoutColour = 7, kFormatWithoutPauses = 6,
+                        kFormatWithoutConsole = 5, kFormatWithoutEvents = 4, kFormatWithoutForces = 3,
+                        kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
 constexpr std::uint32_t kMaxRows = 50'000;  // per chunk, 25 kHz: bounds what damaged bytes can make us allocate
 
 constexpr std::uint32_t kNotListened = 0xffff'ffff;
@@ -30,7 +30,14 @@ struct Header {
 static_assert(sizeof(Header) == 104);
 constexpr std::size_t kHeaderWithoutForces = 96;
 
-enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2, kConsole = 4, kPauses = 8, kColour = 16 };
+enum UsedBit : std::uint32_t {
+  kFluoroscope = 1,
+  kMoves = 2,
+  kConsole = 4,
+  kPauses = 8,
+  kColour = 16,
+  kSteered = 32
+};
 
 struct Piece {
   Rows inputs, poses, forces, frames, events;
@@ -59,6 +66,13 @@ bool turns_console(const Recording& recording, const Piece& piece) {
 bool shows_colour(const Recording& recording, const Piece& piece) {
   for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i)
     if (recording.inputs[i].console.colour_mm_s != 0.0) return true;
+  return false;
+}
+
+// Whether the console looked aside in a chunk, or colour's box was moved.
+bool is_steered(const Recording& recording, const Piece& piece) {
+  for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i)
+    if (steering_of(recording.inputs[i].console) != std::array<double, 4>{}) return true;
   return false;
 }
 
@@ -95,7 +109,8 @@ Header header_of(const Recording& recording, const Piece& piece, const ChunkLayo
     }
   }
   header.used = (layout.fluoroscope ? kFluoroscope : 0U) | (layout.moving ? kMoves : 0U) |
-                (layout.console ? kConsole : 0U) | (layout.pauses ? kPauses : 0U) | (layout.colour ? kColour : 0U);
+                (layout.console ? kConsole : 0U) | (layout.pauses ? kPauses : 0U) | (layout.colour ? kColour : 0U) |
+                (layout.steered ? kSteered : 0U);
   return header;
 }
 
@@ -106,6 +121,7 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   layout.console = turns_console(recording, piece);
   layout.pauses = pauses(recording, piece);
   layout.colour = shows_colour(recording, piece);
+  layout.steered = is_steered(recording, piece);
   const Header header = header_of(recording, piece, layout);
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
@@ -133,7 +149,7 @@ std::uint32_t used_bits(std::uint32_t format) {
   if (format <= kFormatWithoutEvents) return kFluoroscope;
   if (format <= kFormatWithoutConsole) return kFluoroscope | kMoves;
   return kFluoroscope | kMoves | kConsole | (format > kFormatWithoutPauses ? kPauses : 0U) |
-         (format > kFormatWithoutColour ? kColour : 0U);
+         (format > kFormatWithoutColour ? kColour : 0U) | (format > kFormatWithoutSteering ? kSteered : 0U);
 }
 
 // The header of a chunk in any known format, its later fields as the newest format would have them.
@@ -160,6 +176,7 @@ ChunkLayout layout_of(const Header& header) {
   layout.console = (header.used & kConsole) != 0;
   layout.pauses = (header.used & kPauses) != 0;
   layout.colour = (header.used & kColour) != 0;
+  layout.steered = (header.used & kSteered) != 0;
   layout.listened = header.events != kNotListened;
   layout.near_plane = header.format > kFormatWithoutNearPlane;
   return layout;

@@ -105,8 +105,8 @@ struct RecordingChunk {
 // frames of ultrasound say what was near its plane; since format 4 there are forces, since format 5 events and, of
 // a patient who moves, where tips are at rest; since format 6 a chunk in which the console was not as the case has
 // it holds how it stood; since format 7 one with a pause holds how long it was; since format 8 one with colour
-// Doppler holds its scale. Formats 1 to 7, without, are read too; so are those whose events, in bits that were 0
-// then, tell no length.
+// Doppler holds its scale; since format 9 one in which the console looked aside or colour's box was moved holds
+// how. Formats 1 to 8, without, are read too; so are those whose events, in bits that were 0 then, tell no length.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 constexpr double kChunkSeconds = 2.0;

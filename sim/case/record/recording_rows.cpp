@@ -6,8 +6,10 @@
 namespace seldinger::cases {
 namespace {
 
-constexpr std::size_t kInputColumns = 20, kFluoroscopeColumns = 17, kConsoleColumns = 4, kColourColumns = 1;
-static_assert(kMaxInputColumns == kInputColumns + kFluoroscopeColumns + kConsoleColumns + kColourColumns);
+constexpr std::size_t kInputColumns = 20, kFluoroscopeColumns = 17, kConsoleColumns = 4, kColourColumns = 1,
+                      kSteeredColumns = 4;
+static_assert(kMaxInputColumns ==
+              kInputColumns + kFluoroscopeColumns + kConsoleColumns + kColourColumns + kSteeredColumns);
 
 // The flags of a row share one word.
 enum InputBit : unsigned { kFire = 1, kFreeze = 2, kPedal = 4, kAutomatic = 8, kHandAway = 16, kHandInBeam = 32 };
@@ -155,7 +157,7 @@ base::Error unknown_event() {
 
 std::size_t ChunkLayout::input_columns() const noexcept {
   return kInputColumns + (fluoroscope ? kFluoroscopeColumns : 0) + (console ? kConsoleColumns : 0) +
-         (colour ? kColourColumns : 0);
+         (colour ? kColourColumns : 0) + (steered ? kSteeredColumns : 0);
 }
 
 std::size_t ChunkLayout::pose_columns() const noexcept {
@@ -168,6 +170,10 @@ std::size_t ChunkLayout::frame_columns() const noexcept {
 
 std::size_t ChunkLayout::event_columns() const noexcept {
   return pauses ? 3 : 2;
+}
+
+std::array<double, 4> steering_of(const ConsoleSetting& console) noexcept {
+  return {console.compound_deg, console.lean_deg, console.box_across, console.box_down};
 }
 
 void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out) {
@@ -187,6 +193,8 @@ void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& lay
     if (layout.fluoroscope) put(at, asked, inputs.exposure);
     if (layout.console) put(at, inputs.console);
     if (layout.colour) put(at, inputs.console.colour_mm_s);
+    if (layout.steered)
+      for (const double value : steering_of(inputs.console)) put(at, value);
   }
   append_table(out, words, layout.input_columns());
 }
@@ -279,6 +287,11 @@ base::Result<void> read_inputs(const std::byte*& from, std::size_t count, const 
     }
     if (layout.console) in.console = get_console(at);
     if (layout.colour) in.console.colour_mm_s = get(at);
+    if (layout.steered) {
+      ConsoleSetting& console = in.console;
+      for (double* value : {&console.compound_deg, &console.lean_deg, &console.box_across, &console.box_down})
+        *value = get(at);
+    }
   }
   return {};
 }

@@ -2,6 +2,7 @@
 // become bytes that compress well, and back.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,7 @@ struct ChunkLayout {
   bool moving = false;       // where each tip lies in the patient at rest
   bool console = false;      // how the console was set
   bool colour = false;       // and its colour Doppler
+  bool steered = false;      // and which way it looked, and where colour's box stood
   bool listened = true;      // events were recorded
   bool near_plane = true;    // frames say what lies near the picture's plane
   bool pauses = false;       // events say how long by the wall's clock
@@ -27,13 +29,16 @@ struct ChunkLayout {
   std::size_t event_columns() const noexcept;
 };
 constexpr std::size_t kForceColumns = 4, kRestColumns = 3;
-constexpr std::size_t kMaxInputColumns = 42, kMaxPoseColumns = 19;
+constexpr std::size_t kMaxInputColumns = 46, kMaxPoseColumns = 19;
 
 // Rows `first` to `end` of one of a recording's tables.
 struct Rows {
   std::size_t first = 0, end = 0;
   std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(end - first); }
 };
+
+// Of the console, what only layouts that are steered hold.
+std::array<double, 4> steering_of(const ConsoleSetting& console) noexcept;
 
 void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out);
 void append_poses(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out);

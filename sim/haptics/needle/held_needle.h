@@ -8,6 +8,7 @@
 
 #include "sim/case/case.h"
 #include "sim/case/inputs.h"
+#include "sim/case/introducer.h"
 #include "sim/case/skin_passage.h"
 #include "sim/haptics/needle/needle_law.h"
 #include "sim/haptics/needle/needle_path.h"
@@ -16,10 +17,7 @@
 
 namespace seldinger::haptics {
 
-// A tube through which a needle goes: with its stylet in, it is what is pushed; with the stylet out, it stays where
-// it stands, and the needle slides in it. One that is left for another hole is forgotten.
-enum class Introducer { none, closed, open };
-inline constexpr int kIntroducers = 3;
+using cases::Introducer;  // one that is left for another hole is forgotten
 
 // What must be kept from tick to tick. A new one: just taken up. Taken up inside the body it is without force until
 // it has been outside.

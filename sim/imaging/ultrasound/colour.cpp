@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
@@ -17,6 +18,7 @@ namespace {
 
 // Of the picture: how much of it the box takes.
 constexpr double kBoxWidth = 0.84, kBoxTop = 0.08, kBoxBottom = 0.92;
+constexpr double kPlacedShare = 0.4;  // of one that was put somewhere, of the picture's width and depth
 constexpr int kBoxRows = 200;
 
 // Blood drowns later than in the grey picture: colour sends longer pulses of lower frequency, many to a place
@@ -58,18 +60,38 @@ double past_wall_filter(double aliased_mm_s, double scale_mm_s) noexcept {
   return share * share / (1.0 + share * share);
 }
 
-ColourBox colour_box(const UltrasoundView& view) noexcept {
+double most_lean_deg(const UltrasoundView& view) noexcept {
+  return view.probe.radius_mm > 0.0 ? 0.0 : kMostLeanDeg;
+}
+
+ColourBox colour_box(const UltrasoundView& view, const cases::ConsoleSetting& asked) noexcept {
   const int beside = static_cast<int>(0.5 * (1.0 - kBoxWidth) * view.beams);
-  return {beside, view.beams - beside, kBoxTop * view.depth_mm, kBoxBottom * view.depth_mm};
+  ColourBox box{beside, view.beams - beside, kBoxTop * view.depth_mm, kBoxBottom * view.depth_mm};
+  if (asked.box_across > 0.0 && asked.box_down > 0.0) {
+    const double half = 0.5 * kPlacedShare;
+    const double across = std::clamp(asked.box_across, half, 1.0 - half),
+                 down = std::clamp(asked.box_down, half, 1.0 - half);
+    box.first_beam = static_cast<int>(std::lround((across - half) * view.beams));
+    box.end_beam = std::max(box.first_beam + 2, static_cast<int>(std::lround((across + half) * view.beams)));
+    box.from_mm = (down - half) * view.depth_mm;
+    box.to_mm = (down + half) * view.depth_mm;
+  }
+  box.lean_deg = std::clamp(asked.lean_deg, -most_lean_deg(view), most_lean_deg(view));
+  if (box.lean_deg != 0.0) {
+    const double rad = box.lean_deg * std::numbers::pi / 180.0;
+    box.beams_per_mm = base::exact_sin(rad) / base::exact_cos(rad) / fan_of(view).beam_step;
+  }
+  return box;
 }
 
 void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                  std::span<const float> depth_below_skin_mm, const tissue::BloodFlow& flow, double asked_mm_s,
-                  double t_s, ColourPicture& picture, const tissue::Displacement& displacement) {
+                  std::span<const float> depth_below_skin_mm, const tissue::BloodFlow& flow,
+                  const cases::ConsoleSetting& asked, double t_s, ColourPicture& picture,
+                  const tissue::Displacement& displacement) {
   check_view(view, depth_below_skin_mm);
-  picture.box = colour_box(view);
+  picture.box = colour_box(view, asked);
   picture.rows = kBoxRows;
-  picture.scale_mm_s = colour_scale_mm_s(view, asked_mm_s);
+  picture.scale_mm_s = colour_scale_mm_s(view, asked.colour_mm_s);
   const ColourBox& box = picture.box;
   picture.cells.assign(static_cast<std::size_t>(box.end_beam - box.first_beam) * kBoxRows, glm::vec2(0.0F));
   if (flow.empty()) return;
@@ -80,19 +102,31 @@ void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const 
   const LineWalker walker(view, tissue_at, *tissue.volume, inserted, moving);
   const double blood_db = acoustic_table()[static_cast<std::size_t>(volume::TissueClass::vessel)].scatter_db;
   const double row_mm = (box.to_mm - box.from_mm) / kBoxRows;
-  Line line;
+  // What grey's beams meet, as far as it is asked for; one that leans goes from each to the next.
+  std::vector<std::optional<BeamPath>> paths(static_cast<std::size_t>(view.beams));
+  std::vector<Line> lines(static_cast<std::size_t>(view.beams));
+  const auto rest_on = [&](int beam, double depth_mm) {
+    auto& path = paths[static_cast<std::size_t>(beam)];
+    if (!path) path = path_of(fan, moving, beam);
+    return path->at(depth_mm);
+  };
+  const double lean = box.lean_deg * std::numbers::pi / 180.0;
   for (int beam = box.first_beam; beam < box.end_beam; ++beam) {
-    if (!beam_touches(view, depth_below_skin_mm, beam)) continue;
-    const BeamPath path = path_of(fan, moving, beam);
-    const glm::dvec3 direction = fan.direction(beam);
-    bool walked = false;
+    const double from = box.grey_beam(beam, 0.0);
+    if (!(from >= 0.0 && from <= view.beams - 1.0) || !beam_touches(view, depth_below_skin_mm, from)) continue;
+    const glm::dvec3 direction =
+        lean == 0.0 ? fan.direction(beam) : base::exact_cos(lean) * fan.axial + base::exact_sin(lean) * fan.lateral;
     for (int row = 0; row < kBoxRows; ++row) {
-      const double depth_mm = box.from_mm + (row + 0.5) * row_mm;
-      const glm::dvec3 rest = path.at(depth_mm);
+      const double depth_mm = box.from_mm + (row + 0.5) * row_mm, at = box.grey_beam(beam, depth_mm);
+      if (!(at >= 0.0 && at <= view.beams - 1.0)) continue;
+      const int near = static_cast<int>(at);
+      const glm::dvec3 rest = at == near
+                                  ? rest_on(near, depth_mm)
+                                  : glm::mix(rest_on(near, depth_mm), rest_on(near + 1, depth_mm), at - near);
       const double towards_mm_s = -glm::dot(flow.velocity_mm_s(rest, t_s), direction);
       if (towards_mm_s == 0.0) continue;
-      if (!walked) walker.walk(beam, true, line);
-      walked = true;
+      Line& line = lines[static_cast<std::size_t>(near)];
+      if (line.loss_db.empty()) walker.walk(near, beam_touches(view, depth_below_skin_mm, near), line);
       const auto sample = std::min(static_cast<std::size_t>(depth_mm / fan.sample_mm), line.loss_db.size() - 1);
       const double heard = std::clamp(
           (blood_db - static_cast<double>(line.loss_db[sample]) - kColourNoiseDb) / kColourSureDb, 0.0, 1.0);
@@ -121,7 +155,7 @@ void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs
     for (int c = 0; c < width; ++c) {
       const auto place = converter.place(c, r);
       if (!place) continue;
-      const double beam = place->beam - colour.box.first_beam,
+      const double beam = place->beam - colour.box.grey_beam(colour.box.first_beam, place->depth_mm),
                    row = (place->depth_mm - colour.box.from_mm) / row_mm;
       if (beam < 0.0 || beam > beams - 1.0 || row < 0.0 || row > rows) continue;
       inside[at(c, r)] = 1;

@@ -9,6 +9,7 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
+#include "sim/imaging/ultrasound/compound.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -50,6 +51,7 @@ void set_view(const cases::ConsoleSetting& asked, UltrasoundView& view) noexcept
     view.frequency_mhz = taken(asked.frequency_mhz, probe.least_mhz, probe.most_mhz, view.frequency_mhz);
   if (asked.focus_mm > 0.0)
     view.focus_mm = taken(asked.focus_mm, std::min(kLeastFocusMm, view.depth_mm), view.depth_mm, view.focus_mm);
+  view.compound_deg = taken(asked.compound_deg, 0.0, kMostCompoundDeg, 0.0);
 }
 
 glm::dvec2 picture_mm(const ScanConverter& converter, const UltrasoundKnobs& knobs,

@@ -5,6 +5,7 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
+#include "sim/base/rows.h"
 #include "sim/imaging/float_math.h"
 #include "sim/imaging/noise.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
@@ -12,6 +13,20 @@
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
+
+namespace {
+
+// Of this mean square, in one of 256 directions, of a Rayleigh length of 24 bits.
+void add_noise(NoiseKey key, std::size_t i, float mean_square, PolarPicture& picture) {
+  const std::uint32_t bits = noise_bits(key, static_cast<std::uint32_t>(i));
+  const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 8)) + 0.5F) * 0x1.0p-24F;
+  const float length = std::sqrt(-mean_square * float_log(u));
+  const auto& [cosine, sine] = phases()[4 * (bits & 255U)];
+  const float re = picture.envelope[i] + length * cosine, im = length * sine;
+  picture.envelope[i] = std::sqrt(re * re + im * im);
+}
+
+}  // namespace
 
 double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs, double depth_mm) noexcept {
   const double frequency_mhz = working_mhz(view);
@@ -25,18 +40,30 @@ double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs,
 }
 
 void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture) {
-  const auto& turn = phases();
   const NoiseKey key = noise_key(seed, frame);
   const float mean_square = static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0));
-  for (std::size_t i = 0; i < picture.envelope.size(); ++i) {
-    const std::uint32_t bits = noise_bits(key, static_cast<std::uint32_t>(i));
-    // Rayleigh length of 24 bits, one of 256 directions.
-    const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 8)) + 0.5F) * 0x1.0p-24F;
-    const float length = std::sqrt(-mean_square * float_log(u));
-    const auto& [cosine, sine] = turn[4 * (bits & 255U)];
-    const float re = picture.envelope[i] + length * cosine, im = length * sine;
-    picture.envelope[i] = std::sqrt(re * re + im * im);
-  }
+  for (std::size_t i = 0; i < picture.envelope.size(); ++i) add_noise(key, i, mean_square, picture);
+}
+
+double clutter_db(const UltrasoundView& view, double depth_mm) noexcept {
+  return -kClutterBelowDb -
+         (kClutterFallDbMm + shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, working_mhz(view))) *
+             depth_mm;
+}
+
+void add_clutter(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
+  if (!shows_clutter(view)) return;
+  const auto samples = static_cast<std::size_t>(view.samples);
+  std::vector<float> mean_square;
+  for (int k = 0; k < view.samples; ++k)
+    mean_square.push_back(
+        static_cast<float>(std::pow(10.0, 0.1 * clutter_db(view, (k + 0.5) * view.depth_mm / view.samples))));
+  const NoiseKey key = noise_key(view.seed, 0);  // the receiver's begin with 1
+  base::over_rows(view.beams, view.threads, [&](int b) {
+    if (!beam_touches(view, depth_below_skin_mm, b)) return;
+    const std::size_t first = static_cast<std::size_t>(b) * samples;
+    for (std::size_t k = 0; k < samples; ++k) add_noise(key, first + k, mean_square[k], picture);
+  });
 }
 
 Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept {

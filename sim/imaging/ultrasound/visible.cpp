@@ -1,12 +1,16 @@
 #include "sim/imaging/ultrasound/visible.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
 #include "sim/imaging/ultrasound/view/fan.h"
@@ -138,13 +142,6 @@ class Sight {
     return std::max(echo.tip * std::exp(-0.5 * x * x), echo.shaft()) * std::exp(-0.5 * y * y);
   }
 
-  // Levels at a place, loss included; the walk is spared where speckle alone hides the needle.
-  bool needle_stands_out(const NeedlePose& needle, const Place& at, bool tip) const {
-    const double echo_db = decibels(std::pow(needle_amplitude(needle, at, tip), 2.0));
-    if (echo_db < decibels(scatter_around(at)) + kNeedleAboveDb) return false;
-    return echo_db - loss_db(at.beam, at.depth_mm) >= kReceiverNoiseDb + kNeedleAboveDb;
-  }
-
   NeedleLevel level(const NeedlePose& needle, double behind_tip_mm) const {
     const Place at = place(needle.tip_lps_mm - behind_tip_mm * glm::normalize(needle.direction));
     NeedleLevel level;
@@ -155,18 +152,6 @@ class Sight {
     level.echo_db = decibels(std::pow(needle_amplitude(needle, at, behind_tip_mm == 0.0), 2.0)) - loss;
     level.background_db = std::max(decibels(scatter_around(at)) - loss, kReceiverNoiseDb);
     return level;
-  }
-
-  double visible_shaft_mm(const NeedlePose& needle) const {
-    const int steps = std::clamp(static_cast<int>(std::ceil(needle.length_mm / kShaftStepMm)), 1, 1000);
-    const double step_mm = needle.length_mm / steps;
-    const glm::dvec3 along = glm::normalize(needle.direction);
-    int seen = 0;
-    for (int i = 0; i < steps; ++i) {
-      const Place at = place(needle.tip_lps_mm - ((i + 0.5) * step_mm) * along);
-      seen += in_field(at) && needle_stands_out(needle, at, false) ? 1 : 0;
-    }
-    return seen * step_mm;
   }
 
   // Cells of speckle in a ball's largest section in the slice. A cell is the integral of the intensity's
@@ -247,6 +232,111 @@ class Sight {
   std::optional<RestFan> at_rest_;  // where tissue moves
 };
 
+// The looks of a picture: one, or of a compounded view those whose mean square is shown.
+class Looks {
+ public:
+  Looks(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+        std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement)
+      : view_(view) {
+    const int count = view.compound_deg > 0.0 ? kLooks : 1;
+    for (int i = 0; i < count; ++i) views_[static_cast<std::size_t>(i)] = look_of(view, i);
+    for (int i = 0; i < count; ++i)
+      looks_.emplace_back(tissue, views_[static_cast<std::size_t>(i)], inserted, depth_below_skin_mm, displacement);
+  }
+  Looks(const Looks&) = delete;
+  Looks& operator=(const Looks&) = delete;
+  const Sight& middle() const { return looks_.front(); }
+
+  // Levels at a place in the field, loss included; the walk is spared where speckle alone hides the needle.
+  bool needle_stands_out(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
+    std::array<Shown, kLooks> shown;
+    std::size_t count = 0;
+    double power_of_echo = 0.0;
+    for (const Sight& look : looks_) {
+      const Place at = look.place(p_lps_mm);
+      if (&look != &middle() && !look.in_field(at)) continue;
+      const double echo = std::pow(look.needle_amplitude(needle, at, tip), 2.0);
+      shown[count++] = {&look, at, echo};
+      power_of_echo += echo;
+    }
+    const auto all = static_cast<double>(count);
+    if (decibels(power_of_echo / all) < decibels(middle().scatter_around(shown.front().at)) + kNeedleAboveDb)
+      return false;
+    double arrives = 0.0;
+    for (const Shown& one : std::span(shown).first(count)) {
+      const double arrives_db =
+          decibels(one.echo) - one.look->loss_db(one.at.beam, one.at.depth_mm) - begun_db(one.at, shown.front().at);
+      if (count == 1) return arrives_db >= kReceiverNoiseDb + kNeedleAboveDb;
+      arrives += power(arrives_db) / all;
+      if (decibels(arrives) >= kReceiverNoiseDb + kNeedleAboveDb) return true;
+    }
+    return false;
+  }
+
+  double visible_shaft_mm(const NeedlePose& needle) const {
+    const int steps = std::clamp(static_cast<int>(std::ceil(needle.length_mm / kShaftStepMm)), 1, 1000);
+    const double step_mm = needle.length_mm / steps;
+    const glm::dvec3 along = glm::normalize(needle.direction);
+    int seen = 0;
+    for (int i = 0; i < steps; ++i) {
+      const glm::dvec3 p = needle.tip_lps_mm - ((i + 0.5) * step_mm) * along;
+      seen += middle().in_field(middle().place(p)) && needle_stands_out(needle, p, false) ? 1 : 0;
+    }
+    return seen * step_mm;
+  }
+
+  NeedleLevel level(const NeedlePose& needle, double behind_tip_mm) const {
+    NeedleLevel mean = middle().level(needle, behind_tip_mm);
+    if (looks_.size() == 1 || !mean.in_field) return mean;
+    double echo = 0.0, background = 0.0, count = 0.0;
+    for (const Sight& look : looks_) {
+      const NeedleLevel one = look.level(needle, behind_tip_mm);
+      if (!one.in_field) continue;
+      const glm::dvec3 p = needle.tip_lps_mm - behind_tip_mm * glm::normalize(needle.direction);
+      const double less_db = begun_db(look.place(p), middle().place(p));
+      echo += power(one.echo_db - less_db);
+      background += power(one.background_db - less_db);
+      count += 1.0;
+    }
+    mean.echo_db = decibels(echo / count);
+    mean.background_db = decibels(background / count);
+    return mean;
+  }
+
+  // Speckle is evened out by as many looks as see the target.
+  TargetLevel level(const cases::Lesion& target) const {
+    TargetLevel mean = middle().level(target);
+    if (looks_.size() == 1 || !mean.in_field) return mean;
+    double through = 0.0, contrast = 0.0;
+    int count = 0;
+    for (const Sight& look : looks_) {
+      const TargetLevel one = look.level(target);
+      if (!one.in_field) continue;
+      through += power(one.transmission_db);
+      contrast += power(one.contrast_db);
+      ++count;
+    }
+    mean.transmission_db = decibels(through / count);
+    mean.contrast_db = decibels(contrast / count);
+    mean.cells *= independent_looks(view_, middle().place_of_tissue(target.center_lps_mm).depth_mm, count);
+    return mean;
+  }
+
+ private:
+  // What a look is lowered by where it is laid over the middle one, because it begins deeper.
+  double begun_db(const Place& look, const Place& in_middle) const {
+    return middle().made_up_db(std::max(0.0, in_middle.depth_mm - look.depth_mm));
+  }
+  struct Shown {
+    const Sight* look = nullptr;
+    Place at{};
+    double echo = 0.0;  // its power, without loss
+  };
+  const UltrasoundView& view_;
+  std::array<UltrasoundView, kLooks> views_;
+  std::vector<Sight> looks_;
+};
+
 const NeedlePose* usable_needle(const Inserted& inserted) {
   return inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr;
 }
@@ -260,7 +350,8 @@ double TargetLevel::cnr() const noexcept {
 UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const UltrasoundView& view,
                                      const Inserted& inserted, std::span<const float> depth_below_skin_mm,
                                      const tissue::Displacement& displacement) {
-  const Sight sight(tissue, view, inserted, depth_below_skin_mm, displacement);
+  const Looks looks(tissue, view, inserted, depth_below_skin_mm, displacement);
+  const Sight& sight = looks.middle();
   UltrasoundVisible seen;
   if (const NeedlePose* needle = usable_needle(inserted)) {
     const Place tip = sight.place(needle->tip_lps_mm);
@@ -268,9 +359,9 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
       seen.near_plane.tip_2_mm = std::abs(tip.off_plane_mm) <= kNearMm;
       seen.near_plane.tip_5_mm = std::abs(tip.off_plane_mm) <= kLessNearMm;
       const bool in_reach = view.sight_law != cases::SightLaw::half_slice || sight.in_slice(tip, 0.0);
-      seen.visible.needle_tip = in_reach && sight.needle_stands_out(*needle, tip, true);
+      seen.visible.needle_tip = in_reach && looks.needle_stands_out(*needle, needle->tip_lps_mm, true);
     }
-    seen.visible.needle_length_mm = sight.visible_shaft_mm(*needle);
+    seen.visible.needle_length_mm = looks.visible_shaft_mm(*needle);
   }
   if (!inserted.lesions.empty()) {
     const cases::Lesion& target = inserted.lesions.front();
@@ -279,7 +370,7 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
       seen.near_plane.target_2_mm = std::abs(center.off_plane_mm) <= kNearMm;
       seen.near_plane.target_5_mm = std::abs(center.off_plane_mm) <= kLessNearMm;
       if (sight.in_slice(center, target.radius_mm)) {
-        const TargetLevel level = sight.level(target);
+        const TargetLevel level = looks.level(target);
         seen.visible.target = level.transmission_db >= kLeastTransmissionDb && level.stands_out();
       }
     }
@@ -294,14 +385,14 @@ NeedleLevel needle_level(const TissueVolume& tissue, const UltrasoundView& view,
   const NeedlePose* needle = usable_needle(inserted);
   return needle == nullptr
              ? NeedleLevel{}
-             : Sight(tissue, view, inserted, depth_below_skin_mm, displacement).level(*needle, behind_tip_mm);
+             : Looks(tissue, view, inserted, depth_below_skin_mm, displacement).level(*needle, behind_tip_mm);
 }
 
 TargetLevel target_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
                          std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement) {
   return inserted.lesions.empty()
              ? TargetLevel{}
-             : Sight(tissue, view, inserted, depth_below_skin_mm, displacement).level(inserted.lesions.front());
+             : Looks(tissue, view, inserted, depth_below_skin_mm, displacement).level(inserted.lesions.front());
 }
 
 }  // namespace seldinger::imaging

@@ -2,8 +2,7 @@
 // noise, spread of light in the screen, logarithm, window. Bright is what lets radiation through: bones and needles
 // are dark, as in live fluoroscopy. Behind the collimator's leaves it is black. What the patient scatters lies
 // under it evenly, where the pulse has some. Last, where they are asked for, veiling glare and lag (panel.h). Not
-// modelled: focal spot; read-out noise is added before the
-// spread of light, after which it belongs, and is small.
+// modelled: focal spot; read-out noise is added before the spread of light, after which it belongs, and is small.
 #pragma once
 
 #include <cstdint>

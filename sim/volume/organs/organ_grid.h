@@ -12,7 +12,7 @@ constexpr double kOrganGridMm = 3.0;
 
 struct OrganGrid {
   Volume volume;                   // averages
-  std::vector<std::uint8_t> soft;  // 1: soft tissue or vessel
+  std::vector<std::uint8_t> soft;  // 1: none of air, gas, lung, fat, bone and metal
   std::vector<std::uint8_t> bone;
   std::vector<std::uint8_t> lung;
   std::vector<std::uint8_t> body;

@@ -5,7 +5,7 @@
 
 namespace seldinger::volume {
 
-TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& classes) {
+TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& classes, bool labelled) {
   constexpr double kCoarseMm = 4.0;  // a rib of 7 mm fills less than two voxels
   TissueTold told;
   told.contrast = contrast_of(volume, classes);
@@ -19,7 +19,6 @@ TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& cla
 
   if (told.contrast.may_be_swallowed)
     told.doubts.emplace_back("what is bright may be contrast in the bowel: no organ is enhanced");
-  const bool labelled = voxels(TissueClass::muscle) > 0.0;  // a label alone tells it
   if (!labelled && told.contrast.phase != ContrastPhase::none && voxels(TissueClass::vessel) > 0.0)
     told.doubts.emplace_back("a stone or a calcified plaque deep in a CT with contrast is told as vessel");
   if (voxels(TissueClass::metal) > 0.0)

@@ -15,7 +15,7 @@ struct TissueTold {
   std::vector<std::string> doubts;             // sentences without a full stop, for a person
 };
 
-// Classes: as many as voxels (CHECK).
-TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& classes);
+// Classes: as many as voxels (CHECK); labelled: a label map told some of them.
+TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& classes, bool labelled);
 
 }  // namespace seldinger::volume

@@ -53,13 +53,26 @@ TEST(Scene, MayShowFlowInColour) {
   const auto scene = with(R"({"scale_cm_s": 25})");
   ASSERT_TRUE(scene.has_value()) << scene.error().text;
   EXPECT_TRUE(unused.empty());
-  EXPECT_EQ(std::get<UltrasoundSceneView>(*scene->view).colour_mm_s, 250.0);
+  EXPECT_EQ(std::get<UltrasoundSceneView>(*scene->view).console.colour_mm_s, 250.0);
   const auto off = with("null");  // as a sheet's column turns it off
   ASSERT_TRUE(off.has_value());
-  EXPECT_EQ(std::get<UltrasoundSceneView>(*off->view).colour_mm_s, 0.0);
+  EXPECT_EQ(std::get<UltrasoundSceneView>(*off->view).console.colour_mm_s, 0.0);
   for (const char* colour : {"true", "{}", R"({"scale_cm_s": 0})"})
     EXPECT_FALSE(with(colour).has_value()) << colour;
   EXPECT_FALSE(with(R"({"scale_cm_s": 25}, "output": "polar_db")").has_value());
+  const auto aimed = with(R"({"scale_cm_s": 25, "lean_deg": -20, "box_across": 0.3, "box_down": 0.6},
+      "compound_deg": 12, "sight_law": "scatter")");
+  ASSERT_TRUE(aimed.has_value()) << aimed.error().text;
+  const auto& view = std::get<UltrasoundSceneView>(*aimed->view);
+  EXPECT_EQ(view.console.lean_deg, -20.0);
+  EXPECT_EQ(view.console.box_across, 0.3);
+  EXPECT_EQ(view.console.box_down, 0.6);
+  EXPECT_EQ(view.view.compound_deg, 12.0);
+  EXPECT_EQ(view.view.sight_law, cases::SightLaw::scatter);
+  EXPECT_EQ(std::get<UltrasoundSceneView>(*scene->view).view.sight_law, cases::kNewestSightLaw);
+  for (const char* wrong : {R"({"scale_cm_s": 25, "lean_deg": 21})", R"({"scale_cm_s": 25}, "compound_deg": 16)",
+                            R"({"scale_cm_s": 25}, "sight_law": "none")"})
+    EXPECT_FALSE(with(wrong).has_value()) << wrong;
 }
 
 }  // namespace

@@ -261,6 +261,13 @@ const std::vector<Fault>& faults() {
        }},
       {"fired on the introducer's stylet", "exchange_stylet", violated,
        [](auto& s) { say(s, 0.9, EventKind::stylet_in); }},
+      {"an introducer asked for in tissue", "exchange_stylet", not_asked,
+       [](auto& s) { say(s, 3.9, EventKind::stylet_in); }},
+      {"an introducer put aside", "exchange_stylet", not_asked,
+       [](auto& s) {
+         say(s, 0.5, EventKind::stylet_in);
+         say(s, 0.9, EventKind::stylet_out);
+       }},
       {"on after a cough", "stop_in_trouble", violated, [](auto& s) { say(s, 3.6, EventKind::cough); }},
       {"still after bleeding", "stop_in_trouble", done, [](auto& s) { say(s, 5.5, EventKind::bleeding); }},
       {"no last look", "scan_after", skipped,

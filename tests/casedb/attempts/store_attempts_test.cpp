@@ -230,7 +230,8 @@ TEST_F(StoreAttemptsTest, APersonsAttemptsOfASeedAreFoundByIt) {
   EXPECT_EQ(list_attempts_of_seed(library_, bob, 0xfedcba9876543210ULL).size(), 1U);
   EXPECT_TRUE(list_attempts_of_seed(library_, ann, 8).empty());
   Statement plan = library_.database().prepare(
-      "EXPLAIN QUERY PLAN SELECT * FROM attempt_summary WHERE person_id = 'a' AND seed = 7");
+      "EXPLAIN QUERY PLAN SELECT * FROM attempt_summary WHERE person_id = 'a' AND seed = 7 "
+      "ORDER BY started_us DESC, attempt_id DESC");
   bool by_index = false;
   while (plan.step()) by_index = by_index || plan.text("detail").find("attempt_by_seed") != std::string::npos;
   EXPECT_TRUE(by_index);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "app/attempts/this_program.h"
 #include "assessment/operators/plan.h"
@@ -418,6 +419,67 @@ TEST(UltrasoundConsole, ColourShowsFlowOverTheSameGrey) {
   cases::State off = state;
   off.probe.console = {};
   EXPECT_EQ(guidance->see(state, {}), guidance->see(off, {}));
+}
+
+// Clutter is a case's of the newest law; compounding the console's, and off it costs no bit.
+TEST(UltrasoundConsole, CompoundsWhereItIsTurnedOn) {
+  cases::Case scene = planned().scene;
+  const cases::ToolPose probe = probe_in(at_target(planned()));
+  const auto envelope = [&](double compound_deg, LooksOf looks = LooksOf::one_moment, std::uint64_t frames = 1) {
+    UltrasoundSight sight(scene);
+    cases::ConsoleSetting console;
+    console.compound_deg = compound_deg;
+    imaging::PolarPicture picture;
+    for (std::uint64_t frame = 1; frame <= frames; ++frame)
+      sight.polar(probe, console, {}, 1, frame, picture, {}, 0.0, looks);
+    return picture.envelope;
+  };
+  const auto plain = envelope(0.0), of_one_moment = envelope(12.0);
+  ASSERT_EQ(of_one_moment.size(), plain.size());
+  EXPECT_NE(of_one_moment, plain);
+  EXPECT_EQ(envelope(0.0, LooksOf::last_frames, 1), plain);
+  EXPECT_EQ(envelope(12.0, LooksOf::last_frames, 1), of_one_moment) << "the first picture has all its looks";
+  // Of a still scene the fourth shows what the first does, but for the receiver's noise.
+  const auto fourth = envelope(12.0, LooksOf::last_frames, 4);
+  EXPECT_NE(fourth, of_one_moment);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < fourth.size(); ++i)
+    worst = std::max(worst, static_cast<double>(std::abs(fourth[i] - of_one_moment[i])));
+  EXPECT_LT(worst, 0.01);
+  // Of what was before a leap nothing is left.
+  cases::ToolPose elsewhere = probe;
+  elsewhere.position_lps_mm += 15.0 * probe.side;
+  cases::ConsoleSetting on;
+  on.compound_deg = 12.0;
+  imaging::PolarPicture leapt, whole;
+  UltrasoundSight sight(scene);
+  sight.polar(probe, on, {}, 1, 5, leapt, {}, 1.0, LooksOf::last_frames);
+  sight.polar(elsewhere, on, {}, 1, 6, leapt, {}, 60.0, LooksOf::last_frames);
+  sight.polar(elsewhere, on, {}, 1, 6, whole, {}, 60.0, LooksOf::one_moment);
+  EXPECT_EQ(leapt.envelope, whole.envelope);
+  // The cyst is filled by clutter under the newest law alone.
+  scene.sight_law = cases::SightLaw::scatter;
+  EXPECT_NE(envelope(0.0), plain);
+}
+
+TEST(UltrasoundConsole, WhatIsToldOfACompoundedPictureIsOfItsLooks) {
+  const cases::Case& scene = planned().scene;
+  const UltrasoundSight sight(scene);
+  const cases::ToolPose probe = probe_in(at_target(planned()));
+  cases::ConsoleSetting on;
+  on.compound_deg = 12.0;
+  EXPECT_TRUE(sight.see(probe, {}, {}).visible.target);
+  EXPECT_TRUE(sight.see(probe, on, {}).visible.target);
+  // Steep shafts, of which a look from the side shows more.
+  double shows_mm = 0.0, compounded_mm = 0.0;
+  for (double tilt_deg = 50.0; tilt_deg <= 80.0; tilt_deg += 5.0) {
+    const double tilt = tilt_deg * std::numbers::pi / 180.0;
+    const glm::dvec3 direction = std::sin(tilt) * probe.axis + std::cos(tilt) * probe.side;
+    const imaging::NeedlePose needle{probe.position_lps_mm + 60.0 * probe.axis, direction, 150.0, 0.5, 0.3, 4000.0};
+    shows_mm += sight.see(probe, {}, needle).visible.needle_length_mm;
+    compounded_mm += sight.see(probe, on, needle).visible.needle_length_mm;
+  }
+  EXPECT_GT(compounded_mm, shows_mm);
 }
 
 TEST(PictureClock, KeepsItsRateAndGoesOnFromTheLastPictureAtAnother) {

@@ -65,15 +65,20 @@ TEST(Step, TheConsoleStandsAsItWasTurnedLast) {
   cases::Inputs inputs = at(-120.0);
   step(scene, inputs, 0.001, state);
   EXPECT_EQ(state.probe.console, cases::ConsoleSetting{});
-  inputs.console = {90.0, 40.0, 2.5, -3.0, 200.0};
+  inputs.console = {90.0, 40.0, 2.5, -3.0, 200.0, 12.0, -20.0, 0.3, 0.7};
   step(scene, inputs, 0.001, state);
   EXPECT_EQ(state.probe.console, inputs.console);
   const cases::ConsoleSetting before = inputs.console;
   constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-  inputs.console = {kNotANumber, std::numeric_limits<double>::infinity(), 3.0, kNotANumber, kNotANumber};
+  inputs.console = {kNotANumber, std::numeric_limits<double>::infinity(),
+                    3.0,         kNotANumber,
+                    kNotANumber, kNotANumber,
+                    kNotANumber, kNotANumber,
+                    kNotANumber};
   step(scene, inputs, 0.001, state);
-  EXPECT_EQ(state.probe.console,
-            (cases::ConsoleSetting{before.depth_mm, before.focus_mm, 3.0, before.slice_mm, before.colour_mm_s}));
+  cases::ConsoleSetting expected = before;
+  expected.frequency_mhz = 3.0;
+  EXPECT_EQ(state.probe.console, expected);
   // Nothing of it under a fluoroscope.
   scene.picture.modality = cases::Modality::xray;
   cases::State room;

@@ -248,7 +248,6 @@ INSTANTIATE_TEST_SUITE_P(AllModalities, GoesOn,
                                                           cases::Modality::xray),
                                           testing::Values(Tissue::still, Tissue::moving)));
 
-// A recording's hash is of State alone, chained, whatever else there is to be saved.
 // Taken up outside alone, left where its stylet is drawn in tissue, and in the forces from then on; of a needle
 // that is no core needle the same words are its own stylet's.
 TEST(Tick, ACoreNeedlesIntroducerIsTakenUpAndStays) {
@@ -285,6 +284,7 @@ TEST(Tick, ACoreNeedlesIntroducerIsTakenUpAndStays) {
   EXPECT_EQ(access.second, bare.second);
 }
 
+// A recording's hash is of State alone, chained, whatever else there is to be saved.
 TEST(Tick, KeepsTheChainedHashOfTheStep) {
   const cases::Case scene = ball(cases::Modality::mpr, Tissue::still);
   const Tick tick(scene);

@@ -499,7 +499,7 @@ bool EditorPanel::draw_setting(CaseEditor& editor) {
   const bool titled = ImGui::IsItemDeactivatedAfterEdit();
   static const std::vector<const casedb::SettingRow*> kRows = casedb::shown_rows(&casedb::SettingRow::editor);
   for (const casedb::SettingRow* row : kRows) changed = draw_setting(*row) || changed;
-  if (editor.row().modality == cases::Modality::xray && editor.row().sight_law == cases::SightLaw::scatter)
+  if (editor.row().modality == cases::Modality::xray && editor.row().sight_law >= cases::SightLaw::scatter)
     quiet("Fluoroscopy: scatter from the patient veils the picture; narrowing the collimator makes it clearer.");
   if (titled) editor.set_title(title_.data());
   return changed;

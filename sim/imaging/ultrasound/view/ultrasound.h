@@ -6,7 +6,7 @@
 // under a beam whose width depends on depth → echoes of interfaces and needle → pulse on the complex baseband →
 // envelope; lung as a mirror, which alone looks across beams (mirror.h); then noise, gain, logarithm against a
 // fixed reference, scan conversion, grey. Refraction: only how it darkens what lies behind the edges of round
-// bodies. Not modelled: compounding, persistence.
+// bodies. Of one look; what several of them make is told in compound.h.
 #pragma once
 
 #include <array>
@@ -43,6 +43,7 @@ struct UltrasoundView {
   double scatterers_per_cell = 8.0;               // in the volume of one PSF: quality against time
   std::optional<double> attenuation_db_cm_mhz{};  // of every soft class
   bool echogenic_needle = false;
+  double compound_deg = 0.0;  // of the looks that are averaged with this one (compound.h); 0: none
   cases::SightLaw sight_law = cases::kNewestSightLaw;  // of the tip, and of what the picture is said to show
   bool range_error = false;  // tissue shows deeper or shallower than it lies, by the speed of sound above it
   int threads = 0;           // 0: as many as cores
@@ -83,6 +84,21 @@ std::vector<float> polar_db(const PolarPicture& picture);
 // a frozen picture keeps its `frame`. Same seed, frame and picture: same bits.
 constexpr double kReceiverNoiseDb = -60.0;
 void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture);
+
+// Clutter: what comes back from the wall of the body more than once, and by side lobes, lies over cysts, vessels
+// and shadows. Relative to liver at that depth, in a body of average wall. In vivo it is 30 to 0 dB below a
+// bladder's wall (Lediju, Pihl, Dahl and Trahey, Ultrason. Imaging 30 (2008) 151), most of it right behind the
+// body's wall (Dahl and Sheean, Ultrasound Med. Biol. 40 (2014) 714); where in that range, and how it falls, is our
+// judgement.
+constexpr double kClutterBelowDb = 20.0, kClutterFallDbMm = 0.2;
+// In cases of a law that nothing was published by before there was any (docs/decisions/0090).
+inline bool shows_clutter(const UltrasoundView& view) {
+  return view.sight_law >= cases::SightLaw::clutter && view.method != UltrasoundMethod::thesis;
+}
+// Its mean square as it arrives; liver's speckle at the face is 0.
+double clutter_db(const UltrasoundView& view, double depth_mm) noexcept;
+// Lies still in the picture whatever moves behind it: by the view's seed. Beams that stand in air have none.
+void add_clutter(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture);
 
 // From a share of the dynamic range to a share of white: as it is, dark parts lifted, or middle greys spread.
 enum class GreyMap { linear, lifted, contrast };

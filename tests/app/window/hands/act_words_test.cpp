@@ -35,13 +35,14 @@ TEST(ActWords, OfACoreNeedlesStyletAreOfItsIntroducer) {
     return said_words({.kind = kind, .needle_in = needle_in, .core = true, .introducer = before});
   };
   EXPECT_EQ(words(EventKind::stylet_in, false, Introducer::none),
-            "In your hand is the needle’s introducer, its stylet in: it is wider.");
+            "You now hold the introducer, its stylet in. It is wider than the needle.");
   EXPECT_EQ(words(EventKind::stylet_in, true, Introducer::none),
             "The needle is in tissue: draw it out before you take an introducer.");
   EXPECT_EQ(words(EventKind::stylet_out, true, Introducer::closed),
-            "The introducer stays, its stylet out: the needle slides in it.");
+            "The stylet is out. The introducer stays where it is, and the needle slides through it.");
   EXPECT_EQ(words(EventKind::stylet_in, true, Introducer::open),
             "The introducer’s stylet is in again: what you push now is the introducer.");
+  EXPECT_EQ(words(EventKind::stylet_in, false, Introducer::open), "The introducer is out again, its stylet in.");
   EXPECT_EQ(words(EventKind::stylet_out, false, Introducer::closed), "The introducer is put aside.");
   EXPECT_EQ(said_words({EventKind::stylet_in}), "The stylet is in again.") << "of an access needle";
 }

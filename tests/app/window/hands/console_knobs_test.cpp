@@ -8,6 +8,7 @@
 #include "app/window/hands/console_picture.h"
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::app {
@@ -104,9 +105,32 @@ TEST(ConsoleKnobs, ColourIsOnWithinWhatTheDepthAllowsOrOff) {
   EXPECT_NE(colour_words({}).find("of no vessel"), std::string::npos);
 }
 
+TEST(ConsoleKnobs, CompoundingIsOnOrOff) {
+  ConsoleKnobs knobs = begun(ultrasound(70.0));
+  knobs.turn(T::compound, false);
+  EXPECT_EQ(knobs.asked().compound_deg, imaging::kCompoundDeg);
+  EXPECT_EQ(knobs.view().compound_deg, imaging::kCompoundDeg);
+  knobs.turn(T::compound, false);
+  EXPECT_EQ(knobs.asked(), cases::ConsoleSetting{});
+}
+
+TEST(ConsoleKnobs, ColoursBeamsLeanFromAStraightFaceAndItsBoxIsPlaced) {
+  ConsoleKnobs straight = begun(ultrasound(20.0)), curved = begun(ultrasound(70.0));
+  straight.set_lean_deg(-99.0);
+  curved.set_lean_deg(-99.0);
+  EXPECT_EQ(straight.asked().lean_deg, -imaging::kMostLeanDeg);
+  EXPECT_EQ(curved.asked().lean_deg, 0.0);
+  curved.place_box(0.3, 7.0);
+  EXPECT_EQ(curved.asked().box_across, 0.3);
+  EXPECT_EQ(curved.asked().box_down, 1.0);
+  curved.place_box(0.0, 0.0);
+  EXPECT_EQ(curved.asked(), cases::ConsoleSetting{});
+}
+
 TEST(ConsoleKnobs, FrozenOnlyTheScreenCanBeTurned) {
   ConsoleKnobs knobs = begun(ultrasound(70.0));
-  for (const T turn : {T::depth_less, T::depth_more, T::focus_more, T::frequency_less, T::next_preset, T::slice_on})
+  for (const T turn :
+       {T::depth_less, T::depth_more, T::focus_more, T::frequency_less, T::next_preset, T::slice_on, T::compound})
     knobs.turn(turn, true);
   EXPECT_EQ(knobs.asked(), cases::ConsoleSetting{});
   knobs.turn(T::gain_more, true);

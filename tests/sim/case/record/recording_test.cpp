@@ -402,6 +402,23 @@ TEST(Recording, FlowInColourComesBackAndTakesRoomWhereItWasShown) {
   EXPECT_EQ(recording_from_chunks(chunks).error().code, "damaged") << "format 7 had no colour";
 }
 
+TEST(Recording, WhichWayTheConsoleLookedComesBackAndTakesRoomWhereItDidAside) {
+  for (double ConsoleSetting::*const number : {&ConsoleSetting::compound_deg, &ConsoleSetting::lean_deg,
+                                               &ConsoleSetting::box_across, &ConsoleSetting::box_down}) {
+    Recording recording = random_console_recording(4000, 5);
+    const std::size_t without = bytes_of(recording);
+    for (std::size_t i = 2500; i < 4000; ++i) recording.inputs[i].console.*number = i < 3000 ? 12.0 : 0.25;
+    EXPECT_EQ(bytes_of(recording), without + 8 * 2000 * 4) << "in the second chunk";
+    const auto back = recording_from_chunks(chunks_from_recording(recording));
+    ASSERT_TRUE(back.has_value()) << back.error().text;
+    expect_same(recording, *back);
+    auto chunks = chunks_from_recording(recording);
+    for (RecordingChunk& chunk : chunks)
+      chunk = with_bytes(chunk, [](std::vector<std::byte>& raw) { raw[4] = std::byte{8}; });
+    EXPECT_EQ(recording_from_chunks(chunks).error().code, "damaged") << "format 8 looked straight ahead";
+  }
+}
+
 TEST(Recording, OfFormat7IsRead) {
   const Recording recording = random_console_recording(1500, 18);
   auto chunks = chunks_from_recording(recording);
@@ -441,7 +458,7 @@ TEST(Recording, AnUnknownEventIsDamage) {
 
 TEST(Recording, OfAnotherFormatIsRefused) {
   const Recording recording = random_recording(100, 13);
-  for (const std::uint32_t format : {0U, 9U, 77U})
+  for (const std::uint32_t format : {0U, 10U, 77U})
     EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
               "recording_version");
   EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")

@@ -60,7 +60,8 @@ TEST(StateHash, EveryFieldOfAConsoleThatIsTurnedCounts) {
   state.probe.console = {90.0, 40.0, 2.5, -3.0};
   const std::uint64_t before = state_hash(state, 0);
   using C = ConsoleSetting;
-  for (double C::*const number : {&C::depth_mm, &C::focus_mm, &C::frequency_mhz, &C::slice_mm, &C::colour_mm_s}) {
+  for (double C::*const number : {&C::depth_mm, &C::focus_mm, &C::frequency_mhz, &C::slice_mm, &C::colour_mm_s,
+                                  &C::compound_deg, &C::lean_deg, &C::box_across, &C::box_down}) {
     State other = state;
     other.probe.console.*number += 1.0;
     EXPECT_NE(state_hash(other, 0), before);
@@ -97,6 +98,10 @@ TEST(StateHash, EveryFieldCounts) {
   EXPECT_TRUE(changes([](State& s) { s.probe.console.frequency_mhz = 2.5; }));
   EXPECT_TRUE(changes([](State& s) { s.probe.console.slice_mm = -3; }));
   EXPECT_TRUE(changes([](State& s) { s.probe.console.colour_mm_s = 200; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.compound_deg = 12; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.lean_deg = 20; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.box_across = 0.3; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.box_down = 0.7; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.fired = true; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.t_s = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.tip_lps_mm.x = 1; }));

@@ -36,7 +36,8 @@ struct Colour {
   double speed_mm_s(double x_mm, double y_mm) const {
     const BeamAndDepth at = beam_and_depth(view, x_mm, y_mm);
     const double row_mm = (picture.box.to_mm - picture.box.from_mm) / picture.rows;
-    const auto beam = static_cast<std::size_t>(std::lround(at.beam) - picture.box.first_beam),
+    const double leaned = at.beam - picture.box.grey_beam(0.0, at.depth_mm);
+    const auto beam = static_cast<std::size_t>(std::lround(leaned) - picture.box.first_beam),
                row = static_cast<std::size_t>((at.depth_mm - picture.box.from_mm) / row_mm);
     const glm::vec2 cell = picture.cells.at(beam * static_cast<std::size_t>(picture.rows) + row);
     return picture.scale_mm_s * std::atan2(cell.y, cell.x) / std::numbers::pi;
@@ -47,13 +48,19 @@ struct Colour {
     return most;
   }
 };
-Colour colour_of(const Scene& s, const cases::Structure& one, double scale_mm_s, double t_s = 0.15,
-                 std::span<const float> depths = {}) {
+Colour colour_as(const Scene& s, const cases::Structure& one, const cases::ConsoleSetting& console,
+                 double t_s = 0.15, std::span<const float> depths = {}) {
   Colour made{straight_view(), {}};
   made.view.probe.elements = 128;
   const tissue::BloodFlow flow(std::span(&one, 1));
-  colour_polar(s.tissue(), made.view, {}, depths, flow, scale_mm_s, t_s, made.picture);
+  colour_polar(s.tissue(), made.view, {}, depths, flow, console, t_s, made.picture);
   return made;
+}
+Colour colour_of(const Scene& s, const cases::Structure& one, double scale_mm_s, double t_s = 0.15,
+                 std::span<const float> depths = {}) {
+  cases::ConsoleSetting console;
+  console.colour_mm_s = scale_mm_s;
+  return colour_as(s, one, console, t_s, depths);
 }
 double middle_mm_s(const char* name, double t_s = 0.15) {
   return tissue::middle_speed_mm_s(*tissue::flow_law_of(TissueClass::vessel, name), t_s);
@@ -77,6 +84,45 @@ TEST(ColourDoppler, ShowsNothingAcrossTheBeam) {
   const cases::Structure one = vessel("portal_vein", {-1.0, 0.0, 0.0});
   const Colour colour = colour_of(around(one), one, 200.0);
   EXPECT_LT(colour.sure(), 0.01);
+}
+
+// What lies along the face shows by the sine of the lean, and in the other colour to the other side.
+TEST(ColourDoppler, LeansSoThatFlowAlongTheFaceShows) {
+  const cases::Structure one = vessel("portal_vein", {-1.0, 0.0, 0.0});
+  const Scene s = around(one);
+  for (const double lean_deg : {-20.0, -10.0, 10.0, 20.0, 45.0}) {
+    cases::ConsoleSetting console;
+    console.colour_mm_s = 200.0;
+    console.lean_deg = lean_deg;
+    const double leans_deg = std::clamp(lean_deg, -kMostLeanDeg, kMostLeanDeg);
+    for (const double x_mm : {-4.0, 0.0, 4.0})
+      EXPECT_NEAR(colour_as(s, one, console).speed_mm_s(x_mm, kDeepMm),
+                  middle_mm_s("portal_vein") * std::sin(leans_deg * std::numbers::pi / 180.0),
+                  0.03 * middle_mm_s("portal_vein"))
+          << lean_deg << " at " << x_mm;
+  }
+  cases::ConsoleSetting console;
+  console.lean_deg = 20.0;
+  EXPECT_EQ(colour_box(curved_view(), console).lean_deg, 0.0) << "the beams of a curved face differ anyway";
+}
+
+TEST(ColourDoppler, ItsBoxIsWhereItIsPutAndWithinThePicture) {
+  const UltrasoundView view = straight_view();
+  const ColourBox whole = colour_box(view, {});
+  for (const auto& [across, down] : {std::pair{0.5, 0.5}, {0.01, 0.01}, {1.0, 1.0}, {0.3, 0.7}}) {
+    cases::ConsoleSetting console;
+    console.box_across = across;
+    console.box_down = down;
+    const ColourBox box = colour_box(view, console);
+    EXPECT_GE(box.first_beam, 0);
+    EXPECT_LE(box.end_beam, view.beams);
+    EXPECT_GE(box.from_mm, 0.0);
+    EXPECT_LE(box.to_mm, view.depth_mm + 1e-9);
+    EXPECT_LT(box.end_beam - box.first_beam, whole.end_beam - whole.first_beam);
+    if (across != 0.3) continue;
+    EXPECT_NEAR(0.5 * (box.first_beam + box.end_beam), 0.3 * view.beams, 1.0);
+    EXPECT_NEAR(0.5 * (box.from_mm + box.to_mm), 0.7 * view.depth_mm, 1e-9);
+  }
 }
 
 TEST(ColourDoppler, WrapsAtItsScale) {
@@ -130,7 +176,10 @@ TEST(ColourDoppler, NeedsAFaceThatTouchesAndSoundThatGetsThere) {
 
 TEST(ColourDoppler, IsDrawnWithinItsBoxAndVessel) {
   const cases::Structure one = vessel("portal_vein", -axis_at(40.0));
-  const Colour colour = colour_of(around(one), one, 300.0);
+  cases::ConsoleSetting console;
+  console.colour_mm_s = 300.0;
+  console.lean_deg = 15.0;
+  const Colour colour = colour_as(around(one), one, console);
   const ScanConverter converter(colour.view, {300, 400, 0.0});
   std::vector<unsigned char> numbers, flipped;
   colour_numbers(converter, {}, colour.picture, numbers);

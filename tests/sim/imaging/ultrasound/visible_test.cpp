@@ -438,7 +438,9 @@ TEST(NeedleTruth, IsWhatADetectorFindsWhoLooksAtThePictureOnly) {
     inserted.needle->tip_lps_mm =
         point_of(view, 16.0, depth_mm) + glm::dvec3(0, 0, 1.5 * fwhm_mm * (rng.uniform() - 0.5));
     const double above_db = excess_db(needle_level(liver().tissue(), view, inserted, {}, 0.0)) - kNeedleAboveDb;
-    const bool found = detected(polar_of(liver(), view, inserted), view, inserted.needle->tip_lps_mm);
+    PolarPicture picture = polar_of(liver(), view, inserted);
+    add_clutter(view, {}, picture);
+    const bool found = detected(picture, view, inserted.needle->tip_lps_mm);
     if (std::abs(above_db) > 3.0) {
       ++far;
       agree += found == (above_db > 0.0) ? 1 : 0;

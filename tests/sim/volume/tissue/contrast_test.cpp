@@ -39,7 +39,7 @@ TEST(TissueTold, SharesAreOfTheBodyAndDoubtsAreSaid) {
   for (int i = 20; i < 23; ++i)
     for (int j = 28; j < 31; ++j) made.hu[made.index(i, j, 20)] = 3071;
   const auto classes = tissue_classes(made);
-  const TissueTold told = tell_tissue(made, classes);
+  const TissueTold told = tell_tissue(made, classes, false);
   EXPECT_NEAR(std::accumulate(told.share.begin(), told.share.end(), 0.0), 1.0, 1e-9);
   EXPECT_EQ(told.share[static_cast<std::size_t>(TissueClass::air)], 0.0);
   const auto body = classes.size() - count_classes(classes)[static_cast<std::size_t>(TissueClass::air)];

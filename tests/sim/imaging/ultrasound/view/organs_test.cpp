@@ -3,11 +3,14 @@
 
 #include <map>
 
+#include "casedb/import/import.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/fan.h"
 #include "sim/volume/phantom.h"
 #include "sim/volume/tissue/find_tissue.h"
+#include "tests/fixtures/places.h"
+#include "tests/fixtures/shared_data.h"
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
@@ -133,6 +136,54 @@ TEST(Organs, HaveTheirRowsLevelInPictures) {
   for (const Organ organ : {Organ::spleen, Organ::kidney_cortex, Organ::kidney_sinus, Organ::muscle,
                             Organ::fat_under_skin, Organ::fat_inside, Organ::kidney_pyramid})
     EXPECT_GE(organs[organ].count, 500) << organ_rows()[static_cast<std::size_t>(organ)].name;
+}
+
+// Of a patient whom nobody labelled: what class and place tell of the body's wall and about its organs. There is no
+// liver to compare with, but its level is what all are told in.
+TEST(Organs, HaveTheirRowsLevelInPicturesOfRealCt) {
+  SELDINGER_NEEDS_SHARED_DATA();
+  auto source = casedb::read_source(fixtures::shared_data_dir() / "ct-abdomen-pelvis/abdomen_pelvis_2x.mha");
+  ASSERT_TRUE(source.has_value());
+  Torso patient;
+  patient.volume = std::move(source->volume);
+  patient.classes = volume::tissue_classes(patient.volume);
+  patient.levels = echogenicity(patient.volume, patient.classes);
+  show_organs(patient.volume, patient.classes, patient.levels);
+  patient.organs = organs_of(patient.volume, patient.classes);
+  const glm::ivec3 size = patient.volume.size_voxels;
+  std::map<Organ, Power> organs;
+  Power liver;  // none here
+  UltrasoundView view = straight_view(60.0);
+  view.beams = 64;
+  view.samples = 400;
+  view.attenuation_db_cm_mhz = 0.0;
+  // From the belly and from the back, inwards from the skin.
+  for (const double across : {0.35, 0.5, 0.65})
+    for (const double along : {0.3, 0.5, 0.7})
+      for (const bool belly : {true, false}) {
+        glm::ivec3 at(glm::dvec3(size) * glm::dvec3(across, 0.5, along));
+        const int step = belly ? -1 : 1;
+        int skin = at.y;
+        for (; at.y > 0 && at.y < size.y - 1; at.y += step)
+          if (patient.organs[patient.volume.index(at.x, at.y, at.z)] == Organ::skin) skin = at.y;
+        at.y = skin;
+        view.origin_lps_mm = glm::dvec3(patient.volume.lps_from_voxel * glm::dvec4(at, 1.0));
+        view.axial = {0.0, belly ? 1.0 : -1.0, 0.0};
+        view.lateral = {1.0, 0.0, 0.0};
+        add_picture(patient, view, organs, liver);
+      }
+  int told = 0;
+  for (const OrganRow& row : organ_rows()) {
+    const auto found = organs.find(row.organ);
+    if (found == organs.end() || row.organ == Organ::none) continue;
+    printf("real CT: %-20s %6.1f dB over liver, row %5.1f (%d samples)\n", row.name, found->second.db(),
+           row.level_db, found->second.count);
+    if (row.organ == Organ::skin || row.organ == Organ::fascia || row.organ == Organ::diaphragm) continue;
+    if (found->second.count < 500) continue;
+    EXPECT_NEAR(found->second.db(), row.level_db, 1.5) << row.name;
+    ++told;
+  }
+  EXPECT_GE(told, 3) << "fat under the skin, muscle, fat about organs";
 }
 
 // Levels that follow each other down a profile, each `least_db` from the one before: bright, dark, bright …
