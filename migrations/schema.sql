@@ -785,7 +785,7 @@ CREATE INDEX attempt_by_case ON attempt (case_id);
 
 CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
 
-CREATE INDEX attempt_by_seed ON attempt (person_id, seed);
+CREATE INDEX attempt_by_seed ON attempt (person_id, seed, started_us, attempt_id);
 
 CREATE INDEX attempt_by_time ON attempt (started_us, attempt_id);
 

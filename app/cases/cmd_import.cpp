@@ -204,9 +204,9 @@ int run_sample(const Arguments& arguments) {
 
 int run_case_confirm(const Arguments& arguments) {
   if (!arguments.has("--no-burned-in-text")) throw UsageError("--no-burned-in-text says what is confirmed");
+  arguments.required("--by");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  arguments.required("--by");
   const auto by = acting(*library, arguments, casedb::Action::confirm_no_burned_in_text);
   if (!by) return refuse(by.error());
   const auto kept = casedb::confirm_no_burned_in_text(*library, arguments.positional(0), *by);

@@ -306,9 +306,10 @@ TEST_F(BundleTest, BombsAreRefused) {
 // Rows of every released schema walk the migrations before they are stored.
 TEST_F(BundleTest, RowsOfOlderSchemasAreTaken) {
   write();
-  // Of a law that they knew.
+  // Of laws that they knew.
   home_.database().run("DROP TRIGGER training_case_keeps_its_sight_law");
-  home_.database().run("UPDATE training_case SET sight_law = 'echo'");
+  home_.database().run("DROP TRIGGER training_case_keeps_its_touch");
+  home_.database().run("UPDATE training_case SET sight_law = 'echo', touch_law = 'steady'");
   const Parts good = parts_of(file_);
   const Schema newest = library_schema();
   for (int version = 1; version <= newest_version(newest); ++version) {
