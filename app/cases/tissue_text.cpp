@@ -52,7 +52,8 @@ std::string tissue_text(const volume::TissueTold& told) {
 
 std::string organs_text(const volume::Organs& organs) {
   std::string named, not_named;
-  for (const auto& [organ, name] : volume::kFoundOrganNames) {
+  for (const auto& [one_organ, name] : volume::kFoundOrganNames) {
+    const volume::FoundOrgan organ = one_organ;  // clang 14 lets no lambda have a binding
     if (organ == volume::FoundOrgan::none) continue;
     std::string words(name);
     std::replace(words.begin(), words.end(), '_', ' ');

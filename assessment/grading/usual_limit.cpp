@@ -4,6 +4,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "assessment/registry.h"
+
 namespace seldinger::assessment {
 namespace {
 

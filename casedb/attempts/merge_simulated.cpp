@@ -10,6 +10,7 @@
 #include "casedb/attempts/add_unless.h"
 #include "casedb/attempts/made_at.h"
 #include "casedb/cases/case_checks.h"
+#include "casedb/cases/cases.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/migrate.h"
 #include "casedb/database/sqlite.h"

@@ -11,7 +11,7 @@ std::vector<glm::dvec2> middle_of_back(const OrganGrid& grid) {
   constexpr double kAsideMm = 40.0;
   constexpr int kAround = 8;
   const Lattice lattice(grid.volume.size_voxels);
-  const glm::ivec3 n = lattice.size();
+  const glm::ivec3& n = lattice.size();
   std::vector<glm::dvec3> sums(static_cast<std::size_t>(n.z));  // x, y, count
   for (int k = 0; k < n.z; ++k) {
     glm::ivec2 low(n.x, n.y), high(-1);
