@@ -20,7 +20,7 @@ constexpr double kScreenHz = 60.0;
 // A hand presses the face in until its ends touch too: a curved one's rise 10 mm above its middle (design). Where
 // tissue does not yield the picture begins so much deeper.
 constexpr double kPressCurvedMm = 10.0, kPressStraightMm = 3.0;
-constexpr double kStaleLooksS = 0.5;   // looks that old are not laid over a new one
+constexpr double kStaleLooksS = 1.0;   // looks that old are not laid over a new one; no slow picture takes so long
 constexpr double kBesideFaceMm = 3.0;  // room for the needle
 constexpr double kWayStepMm = 4.0, kNearSkinMm = 12.0, kNearSkinStepMm = 1.0;
 
@@ -240,9 +240,7 @@ imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, con
     return view;
   }
   bool all = looks == LooksOf::one_moment;
-  if (!compounded_ || !compounded_->compounder.is_of(view)) {
-    compounded_ = std::make_shared<Compounded>(view);
-  }
+  if (!compounded_ || !compounded_->compounder.is_of(view)) compounded_ = std::make_shared<Compounded>(view);
   // After a leap, or a picture that could not be made, all are of one moment.
   const double since_s = t_s - compounded_->t_s;
   all = all || !std::exchange(compounded_->whole, false) || !(since_s >= 0.0 && since_s < kStaleLooksS);
