@@ -284,6 +284,32 @@ TEST(Tick, ACoreNeedlesIntroducerIsTakenUpAndStays) {
   EXPECT_EQ(access.second, bare.second);
 }
 
+// Drawn out of its introducer, the needle finds it again in the same hole; in beside it, it has left it.
+TEST(Tick, AnIntroducerIsLeftForAnotherHole) {
+  const std::vector<cases::Event> said = {{0.0, cases::EventKind::stylet_in}, {1.9, cases::EventKind::stylet_out}};
+  constexpr std::uint64_t kOut = 4000, kInAgain = 6000;
+  for (const double aside_mm : {0.0, 15.0}) {
+    cases::Case scene = ball(cases::Modality::xray, Tissue::still);
+    scene.instrument.kind = cases::InstrumentKind::core;
+    const Tick tick(scene);
+    TickState now;
+    for (std::uint64_t i = 0; i < kInAgain; ++i) {
+      cases::Inputs inputs = hands_at(i);
+      inputs.fire = false;
+      inputs.needle.position_lps_mm.x = i < kOut ? 0.0 : aside_mm;
+      inputs.needle.axis = {0.0, 1.0, 0.0};
+      Scenario(said).add_to(inputs, now.state.t_s, now.happened);
+      tick.advance_hands(inputs, {}, now);
+      if (i == kOut) {
+        ASSERT_FALSE(now.state.needle.skin.in_body);
+        ASSERT_EQ(now.introducer, haptics::Introducer::open);
+      }
+    }
+    ASSERT_TRUE(now.state.needle.skin.in_body);
+    EXPECT_EQ(now.introducer, aside_mm > 0.0 ? haptics::Introducer::none : haptics::Introducer::open) << aside_mm;
+  }
+}
+
 // A recording's hash is of State alone, chained, whatever else there is to be saved.
 TEST(Tick, KeepsTheChainedHashOfTheStep) {
   const cases::Case scene = ball(cases::Modality::mpr, Tissue::still);
