@@ -23,7 +23,7 @@ using fixtures::with;
 
 // What cannot end well here, and how it ends; where it does is said beside it.
 const std::map<std::string, std::string> kRefused = {
-    {"train --library first-hour", "error: display: "},    // tests/e2e/train_test.cpp
+    {"train --library first-hour", "error: display: "},    // tests/e2e/window/train_test.cpp
     {"simulate answers CODE", "error: round_in_use: "},    // tests/casedb/ratings
     {"standard set Built --by dora", "error: no_rule: "},  // tests/casedb/grading
     {"device probe --seconds 1", "error: no_device: "},    // tests/e2e/device_test.cpp

@@ -36,8 +36,7 @@ class WindowRace : public testing::Test {
     trainee_->point_at_room();
   }
   void begin_again() {
-    trainee_->press("F5");
-    ASSERT_TRUE(until([&] { return trainee_->now().value("attempt_s", 9.0) < 2.0; }, 120.0)) << trainee_->now();
+    ASSERT_NO_FATAL_FAILURE(trainee_->begin_again());
     trainee_->press("y");
   }
   void sign_out_and_watch() {

@@ -131,9 +131,7 @@ TEST_F(TrainConsoleTest, ANewAttemptsKnobsStandWhereItsConsoleDoes) {
   ASSERT_TRUE(fixtures::until([&] { return now().value("gain_db", 0.0) > 15.0; })) << now();
   const double bright = mean(guidance());
   EXPECT_GT(bright, 1.3 * plain);
-  press("F5");
-  ASSERT_TRUE(fixtures::until(
-      [&] { return now().value("screen", "") == "attempt" && now().value("attempt_s", 9.0) < 1.5; }));
+  ASSERT_NO_FATAL_FAILURE(trainee_->begin_again());
   ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
   EXPECT_EQ(now().value("gain_db", -1.0), 0.0);
   EXPECT_EQ(now().value("depth_mm", -1.0), own_mm);

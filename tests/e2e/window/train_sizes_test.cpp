@@ -1,6 +1,6 @@
 // One window that its user draws larger and smaller, with letters of two sizes: on each screen what is to be
 // pressed is in sight and apart at every size between, and at three of them the screen looks as it is kept
-// (tests/e2e/pictures; SELDINGER_RENEW_PICTURES=1 writes them anew).
+// (tests/e2e/window/pictures; SELDINGER_RENEW_PICTURES=1 writes them anew).
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -100,7 +100,7 @@ TEST_P(TrainSizesTest, EveryScreenIsUsableAndLooksAsItIsKept) {
 
 // What is kept of one screen is not what is kept of another: a comparison that all pass would hold nothing.
 TEST(KeptPictures, TellScreensApart) {
-  const std::filesystem::path folder = fixtures::source_dir() / "tests" / "e2e" / "pictures";
+  const std::filesystem::path folder = fixtures::source_dir() / "tests" / "e2e" / "window" / "pictures";
   const Names screens = {"log_in", "choose", "briefing", "planning", "attempt", "debrief"};
   for (const double letters : {1.0, 1.6})
     for (const Size& size : kSizes) {
