@@ -121,15 +121,20 @@ BeamPath RestFan::path(double beam) const {
   return {fan_.start_lps_mm(beam), fan_.direction(beam), back_of(beam), {}, depths_per_mm_};
 }
 
-double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcept {
-  if (aside_.empty()) return std::abs(glm::dot(normal, along(depth_mm)));
+glm::dvec3 BeamPath::as_met(double depth_mm, const glm::dvec3& normal) const noexcept {
+  if (aside_.empty()) return normal;
   const double nodes = depth_mm * per_mm_;
   const std::size_t node = node_at(nodes);
   const double part = nodes - static_cast<double>(node);
   const Aside &low = aside_[node], &high = aside_[node + 1];
-  return shaders::us_facing(glm::dot(normal, along(depth_mm)),
-                            glm::dot(normal, low.across + part * (high.across - low.across)),
-                            glm::dot(normal, low.out + part * (high.out - low.out)));
+  return {glm::dot(normal, along(depth_mm)), glm::dot(normal, low.across + part * (high.across - low.across)),
+          glm::dot(normal, low.out + part * (high.out - low.out))};
+}
+
+double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcept {
+  if (aside_.empty()) return std::abs(glm::dot(normal, along(depth_mm)));
+  const glm::dvec3 met = as_met(depth_mm, normal);
+  return shaders::us_facing(met.x, met.y, met.z);
 }
 
 PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement)

@@ -30,7 +30,10 @@ class BeamPath {
         aside_(std::move(aside)),
         per_mm_(per_mm) {}
 
-  // Cosine of the angle between the beam and an interface's normal, which is told at rest.
+  // An interface's normal, which is told at rest, as the beam meets it: along it, across it and out of the plane;
+  // of tissue that lies still as it is.
+  glm::dvec3 as_met(double depth_mm, const glm::dvec3& normal) const noexcept;
+  // Cosine of the angle between the beam and such a normal.
   double facing(double depth_mm, const glm::dvec3& normal) const noexcept;
 
   // X of the tissue at a depth.
