@@ -56,7 +56,7 @@ class Sight {
           shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
     }
     if (tissue::count_sources(displacement) > 0)
-      at_rest_.emplace(view, kSightMm, 0.0, [&](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
+      at_rest_ = RestFan::when_asked(view, kSightMm, 0.0, [&](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
         return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
       });
   }
@@ -88,7 +88,9 @@ class Sight {
   // Two-way, from the face down to a depth, as LineWalker adds it up in finer steps.
   double loss_db(double beam, double depth_mm) const {
     if (!beam_touches(view_, below_skin_mm_, beam)) return shaders::kUsDeadDb;
-    const BeamPath path = at_rest_ ? at_rest_->path(beam) : BeamPath(fan_.start_lps_mm(beam), fan_.direction(beam));
+    const double deepest_mm = std::max(depth_mm, shaders::kUsGelMm);
+    const BeamPath path = at_rest_ ? at_rest_->path_down_to(beam, deepest_mm)
+                                   : BeamPath(fan_.start_lps_mm(beam), fan_.direction(beam));
     const int steps = std::max(1, static_cast<int>(std::ceil(depth_mm / kWalkMm)));
     const double dz = depth_mm / steps;
     const auto tissue = [&](double z_mm) { return tissue_at_(path.at(z_mm)); };
