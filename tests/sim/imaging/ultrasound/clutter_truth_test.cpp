@@ -1,6 +1,7 @@
 // What is told of a needle where clutter lies over it: the closed form of its limit, and detectors that look at
 // pictures only.
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <utility>
 
@@ -53,11 +54,12 @@ TEST(ClutterTruth, InFluidASteepShaftEndsWhereClutterHidesIt) {
     }
 }
 
-// What is told of the whole shaft is the same answer, place by place.
+// What is told of the whole shaft is the same answer, place by place; the steeper it is, the less.
 TEST(ClutterTruth, TheShaftsLengthIsOfThePlacesThatStandOut) {
   const Scene s = scene([](const glm::dvec3& p) { return p.y < 10.0 ? TissueClass::liver : TissueClass::fluid; });
+  double last_mm = 30.0;
   for (const double tilt_deg : {40.0, 65.0, 72.0, 80.0}) {
-    UltrasoundView view = straight_view(40.0);
+    const UltrasoundView view = straight_view(40.0);
     Inserted inserted;
     inserted.needle = needle_through(point_of(view, 64.0, 35.0), tilt_deg, 0.0);
     inserted.needle->length_mm = 30.0;
@@ -65,12 +67,8 @@ TEST(ClutterTruth, TheShaftsLengthIsOfThePlacesThatStandOut) {
     for (double behind_mm = 1.0; behind_mm < 30.0; behind_mm += kShaftStepMm)
       if (needle_level(s.tissue(), view, inserted, {}, behind_mm).stands_out()) told_mm += kShaftStepMm;
     EXPECT_NEAR(ultrasound_visible(s.tissue(), view, inserted, {}).visible.needle_length_mm, told_mm, 1e-9);
-    if (tilt_deg == 80.0) {
-      EXPECT_EQ(told_mm, 0.0);
-    }
-    if (tilt_deg == 40.0) {
-      EXPECT_GT(told_mm, 15.0);
-    }
+    EXPECT_LT(told_mm, last_mm) << tilt_deg;
+    last_mm = told_mm;
   }
 }
 
@@ -94,7 +92,10 @@ struct Drawn {
   Inserted inserted;
   PolarPicture picture;
 };
-Drawn draw(const Scene& s, int i, double behind_tip_mm, double least_tilt_deg, base::Rng& rng) {
+struct Asked {
+  double behind_tip_mm, least_tilt_deg, off_widths;  // of the slice, at most
+};
+Drawn draw(const Scene& s, int i, const Asked& asked, base::Rng& rng) {
   Drawn drawn{i % 2 == 0 ? curved_view(90.0) : straight_view(40.0), {}, {}};
   UltrasoundView& view = drawn.view;
   view.probe.elements = view.beams = 33;
@@ -102,9 +103,9 @@ Drawn draw(const Scene& s, int i, double behind_tip_mm, double least_tilt_deg, b
   view.seed = static_cast<std::uint64_t>(i) + 1;
   const double depth_mm = (0.3 + 0.5 * rng.uniform()) * view.depth_mm;
   const double fwhm_mm = elevation_fwhm_mm(view.probe, view.probe.frequency_mhz, depth_mm);
-  const double tilt_deg = least_tilt_deg + (85.0 - least_tilt_deg) * rng.uniform();
-  const glm::dvec3 off_mm(0.0, 0.0, 1.5 * fwhm_mm * (rng.uniform() - 0.5));
-  drawn.inserted.needle = needle_through(point_of(view, 16.0, depth_mm) + off_mm, tilt_deg, behind_tip_mm);
+  const double tilt_deg = asked.least_tilt_deg + (85.0 - asked.least_tilt_deg) * rng.uniform();
+  const glm::dvec3 off_mm(0.0, 0.0, 2.0 * asked.off_widths * fwhm_mm * (rng.uniform() - 0.5));
+  drawn.inserted.needle = needle_through(point_of(view, 16.0, depth_mm) + off_mm, tilt_deg, asked.behind_tip_mm);
   drawn.picture = polar_of(s, view, drawn.inserted);
   add_clutter(view, {}, drawn.picture);
   add_receiver_noise(view.seed, 1, drawn.picture);
@@ -116,7 +117,7 @@ TEST(NeedleTruth, IsWhatADetectorFindsWhoLooksAtThePictureOnly) {
   base::Rng rng(57);
   Agreement agreement;
   for (int i = 0; i < 2'000; ++i) {
-    const Drawn drawn = draw(liver, i, 0.0, 0.0, rng);
+    const Drawn drawn = draw(liver, i, {0.0, 0.0, 0.75}, rng);
     agreement.add(excess_db(liver, drawn.view, drawn.inserted, 0.0),
                   tip_detected(drawn.picture, drawn.view, *drawn.inserted.needle));
   }
@@ -135,11 +136,12 @@ TEST(ClutterTruth, IsWhatADetectorFindsWhoLooksAtThePictureOnly) {
   Agreement tips, shafts;
   int old_law_disagrees = 0;
   constexpr double kBehindTipMm = 20.0;
-  for (int i = 0; i < 2'000; ++i) {
+  const int pictures = std::getenv("SELDINGER_FUZZ") != nullptr ? 2000 : 600;  // the label `long`
+  for (int i = 0; i < pictures; ++i) {
     const Scene& s = scenes[(i / 4) % 4];
     const bool tip = (i / 2) % 2 == 0;
     const double behind_mm = tip ? 0.0 : kBehindTipMm;
-    const Drawn drawn = draw(s, i, behind_mm, tip ? 0.0 : 40.0, rng);
+    const Drawn drawn = draw(s, i, tip ? Asked{0.0, 0.0, 1.5} : Asked{kBehindTipMm, 40.0, 0.75}, rng);
     const double above_db = excess_db(s, drawn.view, drawn.inserted, behind_mm);
     const NeedlePose& needle = *drawn.inserted.needle;
     const bool found = tip ? tip_detected(drawn.picture, drawn.view, needle)
@@ -151,9 +153,9 @@ TEST(ClutterTruth, IsWhatADetectorFindsWhoLooksAtThePictureOnly) {
     old_law_disagrees += !tip && old_db > 3.0 && !found ? 1 : 0;
   }
   tips.expect_holds("tip in fluid and blood", 20);
-  shafts.expect_holds("shaft in fluid and blood", 100);
+  shafts.expect_holds("shaft in fluid and blood", 30);
   printf("without clutter in the law %d shafts would be told that nobody finds\n", old_law_disagrees);
-  EXPECT_GT(old_law_disagrees, 100);
+  EXPECT_GT(old_law_disagrees, pictures / 20);
 }
 
 }  // namespace
