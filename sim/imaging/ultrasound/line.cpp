@@ -279,9 +279,8 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
   const double sine = std::min(1.0, std::abs(z1));
   at.tilt_rad = std::asin(sine);
   const double near_mm = z - needle_->radius_mm / std::max(0.25, std::sqrt(1.0 - sine * sine));
-  constexpr double kLeastWeight = 0.01;
   const double weight = weight_at(tip_x + t * x1, tip_y + t * y1, z);
-  if (near_mm >= 0.0 && near_mm < view_.depth_mm && weight > kLeastWeight) {
+  if (near_mm >= 0.0 && near_mm < view_.depth_mm && weight > kLeastNeedleWeight) {
     at.depth_mm = near_mm;
     at.weight = weight;
     // A strip as wide as the needle, in a Gaussian beam whose width across the strip is:
@@ -293,7 +292,7 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
   }
   if (tip_z >= 0.0 && tip_z < view_.depth_mm) {
     at.tip_weight = weight_at(tip_x, tip_y, tip_z);
-    if (at.tip_weight > kLeastWeight) at.tip_depth_mm = tip_z;
+    if (at.tip_weight > kLeastNeedleWeight) at.tip_depth_mm = tip_z;
   }
   return at;
 }

@@ -138,11 +138,17 @@ class Sight {
     const double sine = std::min(1.0, std::abs(glm::dot(along, fan_.direction(at.beam))));
     const NeedleEcho echo = needle_echo(view_, needle, at.depth_mm, std::asin(sine));
     const double y = at.off_plane_mm / slice_sigma_mm(at.depth_mm);
-    if (!tip) return echo.shaft() * std::exp(-0.5 * y * y);
+    if (!tip) return drawn(echo.shaft(), std::exp(-0.5 * y * y));
     const BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::max(0.5, at.depth_mm));
     const double off_beam = at.beam - std::clamp(std::round(at.beam), 0.0, view_.beams - 1.0);
     const double x = off_beam * fan_.beam_spacing_mm(at.depth_mm) / width.lateral_sigma_mm;
-    return std::max(echo.tip * std::exp(-0.5 * x * x), echo.shaft()) * std::exp(-0.5 * y * y);
+    const double off_plane = std::exp(-0.5 * y * y);
+    return std::max(drawn(echo.tip, std::exp(-0.5 * x * x), off_plane), drawn(echo.shaft(), off_plane));
+  }
+  // Of the amplitude so much as the beam sees of it; by the newest law nothing where the picture draws nothing.
+  double drawn(double amplitude, double across, double off_plane = 1.0) const {
+    const double weight = across * off_plane;
+    return shows_clutter(view_) && !(weight > kLeastNeedleWeight) ? 0.0 : amplitude * across * off_plane;
   }
 
   // Mean square of what lies over all echoes: the receiver's noise, and clutter where the picture has it.

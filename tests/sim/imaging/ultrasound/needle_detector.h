@@ -24,35 +24,45 @@ class NeedleDetector {
     depth_mm_ = place.depth_mm;
   }
 
-  bool tip() const {
+  bool tip() const { return stands_out(tip_power()); }
+  bool shaft() const { return stands_out(shaft_power()); }
+
+ private:
+  bool stands_out(double here) const { return here >= (1.0 + std::pow(10.0, 0.1 * kNeedleAboveDb)) * background(); }
+  double tip_power() const {
     const int middle = sample_at(view_, depth_mm_);
     double here = 0.0;
     for (int k = middle - 1; k <= middle + 1; ++k) here = std::max(here, power(beam_, k));
-    return here >= least();
+    return here;
   }
-
-  // Over seven beams along the shaft, whose near side lies as much higher as it is thick and steep.
-  bool shaft() const {
+  // Over up to seven beams along the shaft, whose near side lies as much higher as it is thick and steep.
+  double shaft_power() const {
     const double upper_mm = needle_.radius_mm / std::max(0.25, std::sqrt(1.0 - sine() * sine()));
-    const double sample_mm = view_.depth_mm / view_.samples;
     double here = 0.0;
-    for (int up = -1; up <= 1 + static_cast<int>(upper_mm / sample_mm); ++up) {
-      double mean = 0.0;
-      for (int b = beam_ - 3; b <= beam_ + 3; ++b) mean += power(b, sample_at(view_, shaft_depth_mm(b)) - up) / 7.0;
-      here = std::max(here, mean);
+    for (int up = -1; up <= 1 + static_cast<int>(upper_mm / sample_mm()); ++up) {
+      double sum = 0.0;
+      int count = 0;
+      for (int b = beam_ - 3; b <= beam_ + 3; ++b) {
+        const double shaft_mm = shaft_depth_mm(b);
+        if (std::abs(shaft_mm - depth_mm_) > kAlongMm) continue;
+        sum += power(b, sample_at(view_, shaft_mm) - up);
+        ++count;
+      }
+      here = std::max(here, sum / count);
     }
-    return here >= least();
+    return here;
   }
-
- private:
   BeamAndDepth in_picture(const glm::dvec3& p_lps_mm) const {
     const glm::dvec3 d = p_lps_mm - view_.origin_lps_mm;
     return beam_and_depth(view_, glm::dot(d, view_.lateral), glm::dot(d, view_.axial));
   }
   double sine() const { return glm::dot(glm::normalize(needle_.direction), view_.axial); }
+  double sample_mm() const { return view_.depth_mm / view_.samples; }
+  // As the screen has it, which makes up for depth.
   double power(int beam, int sample) const {
     const double level = static_cast<double>(at(picture_, beam, sample));
-    return level * level;
+    return level * level *
+           std::exp(0.1 * std::log(10.0) * display_gain_db(view_, {}, (sample + 0.5) * sample_mm()));
   }
   // Where the shaft, drawn out beyond both ends, crosses a beam: by halving, it goes down from beam to beam.
   double shaft_depth_mm(int beam) const {
@@ -67,16 +77,15 @@ class NeedleDetector {
     return beam_at(down_mm).depth_mm;
   }
   // 3 mm about the place, and of the needle what lies 3 mm above to 6 mm below it, are no background.
-  double least() const {
+  double background() const {
     double sum = 0.0;
     int count = 0;
     const int middle = sample_at(view_, depth_mm_);
-    const double sample_mm = view_.depth_mm / view_.samples;
     const glm::dvec3 here = point_of(view_, beam_, depth_mm_);
     for (int b = 0; b < view_.beams; ++b) {
       const double shaft_mm = shaft_depth_mm(b);
       for (int k = std::max(0, middle - 60); k <= std::min(view_.samples - 1, middle + 60); ++k) {
-        const double z_mm = (k + 0.5) * sample_mm;
+        const double z_mm = (k + 0.5) * sample_mm();
         if (glm::length(point_of(view_, b, z_mm) - here) < 3.0) continue;
         if (z_mm > shaft_mm - 3.0 && z_mm < shaft_mm + 6.0) continue;
         sum += power(b, k);
@@ -84,9 +93,10 @@ class NeedleDetector {
       }
     }
     EXPECT_GT(count, 400);
-    return (1.0 + std::pow(10.0, 0.1 * kNeedleAboveDb)) * sum / count;
+    return sum / count;
   }
 
+  static constexpr double kAlongMm = 4.0;  // in depth, that a shaft is looked along
   const PolarPicture& picture_;
   const UltrasoundView& view_;
   const NeedlePose& needle_;
@@ -101,6 +111,11 @@ inline bool shaft_detected(const PolarPicture& picture, const UltrasoundView& vi
                            double behind_tip_mm) {
   return NeedleDetector(picture, view, needle, needle.tip_lps_mm - behind_tip_mm * glm::normalize(needle.direction))
       .shaft();
+}
+
+// Of random scenes; more under the label `long`.
+inline int random_scenes() {
+  return std::getenv("SELDINGER_FUZZ") != nullptr ? 2000 : 600;
 }
 
 // How often a detector and the law say the same, apart for what lies within 3 dB of the limit.
