@@ -21,7 +21,7 @@ constexpr double kAlongRayMm = 1.0;
 // Muscle of a wall that nothing tells apart from what is behind it: the straight muscle of the belly is some 10 mm
 // thick, the three at its side some 20 (Rankin, Muscle Nerve 34, 2006, recalled).
 constexpr double kMusclesMm = 12.0;
-constexpr double kSkinMm = 5.0;  // a CT may show it as soft tissue; with its rim of mixed voxels (design)
+constexpr double kSkinMm = 6.0;  // a CT may show it as soft tissue; with its rim of mixed voxels (design)
 // How deep a rib may lie under the muscles' outside (design). What is farther in is no wall: a heart that is
 // labelled as muscle, and spine and psoas, which breath leaves where they are anyhow.
 constexpr double kDeepestMm = 30.0;
@@ -94,6 +94,18 @@ std::array<double, 9> about(const Radii& radii, int height, int way) {
     values[static_cast<std::size_t>(i)] = radii[static_cast<std::size_t>(h * kWays + w)];
   }
   return values;
+}
+
+// A height at which the axis runs outside the body, as above a scan that the skin closes, has the wall of the
+// nearest.
+void fill(Radii& radii) {
+  for (int w = 0; w < kWays; ++w) {
+    const auto at = [&](int h) -> double& { return radii[static_cast<std::size_t>(h * kWays + w)]; };
+    for (int h = 1; h < kHeights; ++h)
+      if (at(h) == 0.0) at(h) = at(h - 1);
+    for (int h = kHeights - 2; h >= 0; --h)
+      if (at(h) == 0.0) at(h) = at(h + 1);
+  }
 }
 
 // One ray may pass between two ribs and meet a vessel: its neighbours outvote it.
@@ -195,6 +207,7 @@ std::optional<CavityWall> cavity_wall(const cases::Case& scene) {
       }
       radii[static_cast<std::size_t>(h * kWays + w)] = wall_of_ray(ray);
     }
+  fill(radii);
   settle(made.step_mm, radii);
   for (std::size_t i = 0; i < radii.size(); ++i) made.radius_mm[i] = static_cast<float>(radii[i]);
   return made;

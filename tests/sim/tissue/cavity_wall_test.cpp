@@ -27,7 +27,7 @@ glm::dvec3 breath_mm(double depth) {
 
 // Scanned coarsely, so that it is made in no time. Its skin is the box about the body: nothing here asks for more.
 cases::Case patient(volume::Body body, bool labelled) {
-  const volume::Phantom made = volume::make_phantom({.spacing_mm = glm::dvec3(2.5, 2.5, 5.0), .body = body});
+  const volume::Phantom made = volume::make_phantom({.spacing_mm = glm::dvec3(2.0, 2.0, 5.0), .body = body});
   cases::Case scene;
   scene.volume = made.volume;
   scene.classes = volume::tissue_classes(scene.volume, labelled ? &made.labels : nullptr);
