@@ -122,13 +122,12 @@ std::string json_of_cases(const std::vector<casedb::CaseParts>& cases) {
 std::string json_of_samples(const std::vector<PointSample>& samples) {
   Json list = Json::array();
   for (const PointSample& sample : samples) {
-    Json one = {{"lps_mm", point(sample.lps_mm)},
-                {"hu_nearest", maybe(sample.hu_nearest)},
-                {"hu_trilinear", maybe(sample.hu_trilinear)},
-                {"tissue", maybe(sample.tissue)}};
-    if (sample.label) one["label"] = *sample.label;
-    if (sample.organ) one["organ"] = *sample.organ;
-    if (sample.organ_confidence) one["organ_confidence"] = *sample.organ_confidence;
+    const Json one = {{"lps_mm", point(sample.lps_mm)},
+                      {"hu_nearest", maybe(sample.hu_nearest)},
+                      {"hu_trilinear", maybe(sample.hu_trilinear)},
+                      {"class", maybe(sample.tissue)},
+                      {"organ", maybe(sample.organ)},
+                      {"confidence", maybe(sample.organ_confidence)}};
     list.push_back(one);
   }
   return text({{"samples", list}});

@@ -20,9 +20,8 @@ struct PointSample {
   glm::dvec3 lps_mm{0.0};
   std::optional<double> hu_nearest, hu_trilinear;
   std::optional<std::string> tissue;       // class; nothing outside the volume
-  std::optional<std::string> label;        // of cases whose tissues are known, …
-  std::optional<std::string> organ;        // … else what was found, as far as it is sure, …
-  std::optional<double> organ_confidence;  // … from 0 to 1
+  std::optional<std::string> organ;        // by the case's labels, else as found, where it is sure
+  std::optional<double> organ_confidence;  // from 0 to 1; 1 by labels
 };
 
 // What scoring attempts again has found. A difference: a value that is stored under the same version.

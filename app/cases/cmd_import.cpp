@@ -100,6 +100,8 @@ int run_import(const Arguments& arguments) {
         return refuse(by.error());
     if (const auto by = acting(*library, arguments, casedb::Action::add_case); !by) return refuse(by.error());
   }
+  if (arguments.has("--title") && arguments.text("--title").empty())
+    return refuse(casedb::check_case_title("").error());
   auto imported = built_in ? import_phantom(*built_in, arguments.text("--title"))
                            : import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"),
                                          "import", face, arguments.has("--large"), preparation_of(arguments));
@@ -175,7 +177,10 @@ int run_sample(const Arguments& arguments) {
         glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), volume->size_voxels - 1);
     const std::size_t at = volume->index(nearest.x, nearest.y, nearest.z);
     sample.tissue = volume::about((*classes)[at]).name;
-    if (labels) sample.label = labels->names[labels->label[at]];
+    if (labels && labels->label[at] != 0) {
+      sample.organ = labels->names[labels->label[at]];
+      sample.organ_confidence = 1.0;
+    }
     if (organs)
       if (const auto organ = volume::organ_at(*organs, sample.lps_mm)) {
         sample.organ = base::name_of(volume::kFoundOrganNames, organ->organ);
@@ -187,11 +192,9 @@ int run_sample(const Arguments& arguments) {
     return kDone;
   }
   for (const PointSample& sample : samples) {
-    const std::string known = sample.label ? ", " + *sample.label
-                              : sample.organ
-                                  ? ", " + *sample.organ + " (" +
-                                        std::to_string(std::lround(100.0 * *sample.organ_confidence)) + " % sure)"
-                                  : std::string();
+    std::string known = sample.organ ? ", " + *sample.organ : "";
+    if (organs && sample.organ)
+      known += " (" + std::to_string(std::lround(100.0 * *sample.organ_confidence)) + " % sure)";
     std::printf("%.6g,%.6g,%.6g: ", sample.lps_mm.x, sample.lps_mm.y, sample.lps_mm.z);
     if (sample.hu_nearest)
       std::printf("nearest %.0f HU, trilinear %.2f HU, %s%s\n", *sample.hu_nearest, *sample.hu_trilinear,

@@ -7,6 +7,7 @@
 #include "app/cli/file.h"
 #include "app/cli/words.h"
 #include "assessment/grading/rule_json.h"
+#include "assessment/registry.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/setting_table.h"
 #include "sim/case/gauge.h"
@@ -75,6 +76,9 @@ void read_criteria(const Arguments& arguments, casedb::CaseSetting& setting) {
       if (!criterion)
         throw UsageError(std::string(option) + " is METRIC<=VALUE, METRIC>=VALUE or METRIC=VALUE, not " +
                          shown(text));
+      if (assessment::find_metric(criterion->metric) == nullptr)
+        throw UsageError(std::string(option) + ": no metric is called " + shown(criterion->metric) +
+                         "; `seldinger help --metrics` lists them");
       criterion->critical = std::string(option) == "--critical";
       setting.rule.criteria.push_back(std::move(*criterion));
     }
@@ -96,6 +100,8 @@ bool sets_more(const Arguments& arguments) {
 }
 
 int run_case_setting(const Arguments& arguments) {
+  if (!sets_more(arguments) && !arguments.has("--title"))
+    throw UsageError("nothing is to be set; `seldinger help case setting` lists what can be");
   std::optional<std::string> rule;
   if (arguments.has("--rule")) {
     if (arguments.has("--pass") || arguments.has("--critical"))

@@ -39,8 +39,13 @@ int run_backup(const Arguments& arguments) {
 }
 
 int run_restore(const Arguments& arguments) {
-  const auto copied = casedb::restore(arguments.positional(0), library_folder(arguments));
-  if (!copied) return refuse(error_of("IN", arguments.positional(0), copied.error()));
+  const std::filesystem::path folder = library_folder(arguments);
+  const auto copied = casedb::restore(arguments.positional(0), folder);
+  if (!copied) {
+    const bool of_library = copied.error().code == "exists" || copied.error().code == "network_file_system";
+    return refuse(of_library ? error_of("--library", folder.string(), copied.error())
+                             : error_of("IN", arguments.positional(0), copied.error()));
+  }
   try {
     auto library = casedb::Library::open(library_folder(arguments));
     if (!library) throw base::Failure("database", "the restored library cannot be opened");

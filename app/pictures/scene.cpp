@@ -18,7 +18,7 @@ base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<st
   auto scene = scene_from_json(*text, path.parent_path(), unused);
   std::sort(unused.begin(), unused.end());
   unused.erase(std::unique(unused.begin(), unused.end()), unused.end());
-  for (const std::string& where : unused) notes.push_back(where + " holds fields that are not used");
+  for (const std::string& where : unused) notes.push_back(where + " is not used");
   return scene;
 }
 

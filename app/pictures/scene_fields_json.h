@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/words.h"
 #include "app/pictures/scene.h"
 #include "sim/base/result.h"
 
@@ -139,10 +140,11 @@ class SceneReader {
     return numbers;
   }
 
+  // "needel" of scene: what is there and nobody asked for, a slip of the pen perhaps.
   void unused(std::vector<std::string>& names) const {
     if (!json_.is_object()) return;
     for (const auto& [key, value] : json_.items())
-      if (!asked_.contains(key)) names.push_back(where_);
+      if (!asked_.contains(key)) names.push_back(shown(key) + " of " + where_);
   }
 
  private:

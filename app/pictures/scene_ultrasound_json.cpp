@@ -112,6 +112,8 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, bas
   scene.output = output == "polar_db"      ? UltrasoundOutput::polar_db
                  : output == "envelope_db" ? UltrasoundOutput::envelope_db
                                            : UltrasoundOutput::display;
+  if (view.compound_deg > 0.0 && scene.output != UltrasoundOutput::display)
+    reader.bad("compound_deg", "is of a display");
   if (reader.has("colour") && reader["colour"].is_object()) {
     SceneReader colour(reader["colour"], "view.colour", error);
     scene.console.colour_mm_s = 10.0 * colour.number("scale_cm_s", 2.0, 500.0);

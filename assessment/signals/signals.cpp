@@ -13,8 +13,9 @@ namespace {
 // What follows within this adds nothing to a hand's motion: faster streams are thinned, at most to 200 poses a
 // second.
 constexpr double kDenseSeconds = 0.005;
-constexpr double kLowShare = 0.05;  // of the time, sampled more slowly than sample_rate_p5
-constexpr double kFarAwayMm = 1e5;  // outside of any patient
+constexpr double kLowShare = 0.05;                    // of the time, sampled more slowly than sample_rate_p5
+constexpr double kFarAwayMm = 1e5;                    // outside of any patient
+constexpr double kFarthestMm = 1e6, kLongestS = 1e7;  // no arm reaches so far, no attempt lasts so long
 
 bool near_unit(const glm::dvec3& v) {
   const double length2 = glm::dot(v, v);
@@ -50,6 +51,11 @@ const char* wrong_with(const cases::PoseSample& pose) {
         base::is_finite(pose.needle_direction) && base::is_finite(pose.probe_origin_lps_mm) &&
         base::is_finite(pose.probe_axial) && base::is_finite(pose.probe_lateral)))
     return " holds a number that is not finite";
+  // Squares of what is much more would not be finite.
+  for (const glm::dvec3& point : {pose.tip_lps_mm, pose.tip_at_rest_lps_mm(), pose.probe_origin_lps_mm})
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(point[axis]) > kFarthestMm) return " holds a place more than a kilometre away";
+  if (std::abs(pose.t_s) > kLongestS) return " holds a time beyond 10 000 000 s";
   if (!near_unit(pose.needle_direction) || !near_unit(pose.probe_axial) || !near_unit(pose.probe_lateral))
     return " holds a direction that is not of unit length";
   return nullptr;

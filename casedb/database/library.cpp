@@ -35,7 +35,8 @@ void require_room(fs::path folder) {
   const fs::space_info space = fs::space(folder, error);
   rlimit limit{};
   const bool limited = ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-  if ((!error && space.available < kRoom) || (limited && limit.rlim_cur < kRoomOfOneFile))
+  // A file system without any capacity, as /proc, tells nothing of room.
+  if ((!error && space.capacity > 0 && space.available < kRoom) || (limited && limit.rlim_cur < kRoomOfOneFile))
     throw base::Failure("disk", "the disk is full");
 }
 

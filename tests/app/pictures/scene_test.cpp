@@ -60,6 +60,8 @@ TEST(Scene, MayShowFlowInColour) {
   for (const char* colour : {"true", "{}", R"({"scale_cm_s": 0})"})
     EXPECT_FALSE(with(colour).has_value()) << colour;
   EXPECT_FALSE(with(R"({"scale_cm_s": 25}, "output": "polar_db")").has_value());
+  EXPECT_FALSE(with(R"(null, "output": "polar_db", "compound_deg": 12)").has_value()) << "of one look";
+  EXPECT_TRUE(with(R"(null, "output": "polar_db", "compound_deg": 0)").has_value());
   const auto aimed = with(R"({"scale_cm_s": 25, "lean_deg": -20, "box_across": 0.3, "box_down": 0.6},
       "compound_deg": 12, "sight_law": "scatter")");
   ASSERT_TRUE(aimed.has_value()) << aimed.error().text;

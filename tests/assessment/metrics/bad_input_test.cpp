@@ -119,6 +119,21 @@ TEST(BadTrajectory, NotANumberOrInfiniteIsAnError) {
   }
 }
 
+// Finite, but not their squares: a shape of these had no end.
+TEST(BadTrajectory, PlacesAndTimesOutOfReachAreAnError) {
+  for (const double bad : {1e160, -1e300, 2e7}) {
+    auto sample = usual();
+    sample.recording.poses[50].tip_lps_mm.x = bad;
+    EXPECT_EQ(measured(sample).error, "bad_poses") << bad;
+    sample = usual();
+    sample.recording.poses[50].probe_origin_lps_mm.z = bad;
+    EXPECT_EQ(measured(sample).error, "bad_poses") << bad;
+    sample = usual();
+    sample.recording.poses.back().t_s = bad;
+    EXPECT_EQ(measured(sample).error, "bad_poses") << bad;
+  }
+}
+
 TEST(BadTrajectory, NonUnitOrZeroDirectionIsAnError) {
   for (const double scale : {0.0, 0.5, 2.0}) {
     auto sample = usual();
