@@ -89,8 +89,9 @@ class Sight {
   double loss_db(double beam, double depth_mm) const {
     if (!beam_touches(view_, below_skin_mm_, beam)) return shaders::kUsDeadDb;
     const double deepest_mm = std::max(depth_mm, shaders::kUsGelMm);
-    const BeamPath path = at_rest_ ? at_rest_->path_down_to(beam, deepest_mm)
-                                   : BeamPath(fan_.start_lps_mm(beam), fan_.direction(beam));
+    const Fan::Way way = fan_.way(beam);
+    const BeamPath path =
+        at_rest_ ? at_rest_->path_down_to(beam, deepest_mm) : BeamPath(way.start_lps_mm, way.direction);
     const int steps = std::max(1, static_cast<int>(std::ceil(depth_mm / kWalkMm)));
     const double dz = depth_mm / steps;
     const auto tissue = [&](double z_mm) { return tissue_at_(path.at(z_mm)); };
@@ -119,17 +120,17 @@ class Sight {
   }
 
   // Mean square echo of the tissue in the plane, without loss; liver's is 1.
-  double scatter(double beam, double depth_mm) const {
-    const glm::dvec3 p =
-        at_rest_ ? at_rest_->rest_of(beam, depth_mm) : fan_.start_lps_mm(beam) + depth_mm * fan_.direction(beam);
+  double scatter(const Fan::Way& way, double beam, double depth_mm) const {
+    const glm::dvec3 p = at_rest_ ? at_rest_->rest_of(way, beam, depth_mm) : way.at(depth_mm);
     const double amplitude = static_cast<double>(tissue_at_.speckle(p));
     return amplitude * amplitude;
   }
   double scatter_around(const Place& at) const {
     const double aside = beams_of(kAroundMm, at.depth_mm);
-    return 0.2 * (scatter(at.beam, at.depth_mm) + scatter(at.beam - aside, at.depth_mm) +
-                  scatter(at.beam + aside, at.depth_mm) + scatter(at.beam, at.depth_mm - kAroundMm) +
-                  scatter(at.beam, at.depth_mm + kAroundMm));
+    const Fan::Way way = fan_.way(at.beam);
+    const auto beside = [&](double beam) { return scatter(fan_.way(beam), beam, at.depth_mm); };
+    return 0.2 * (scatter(way, at.beam, at.depth_mm) + beside(at.beam - aside) + beside(at.beam + aside) +
+                  scatter(way, at.beam, at.depth_mm - kAroundMm) + scatter(way, at.beam, at.depth_mm + kAroundMm));
   }
 
   // Amplitude of the needle's echo without loss, at a place on its shaft or at its tip.
@@ -208,8 +209,10 @@ class Sight {
     double beside = 0.0, beside_lossless = 0.0;
     for (const double across_mm : {-r_mm - kBesideMm, r_mm + kBesideMm}) {
       const double beam = at.beam + beams_of(across_mm, z_mm);
-      const double mean =
-          (scatter(beam, z_mm - 0.5 * r_mm) + scatter(beam, z_mm) + scatter(beam, z_mm + 0.5 * r_mm)) / 3.0;
+      const Fan::Way way = fan_.way(beam);
+      const double mean = (scatter(way, beam, z_mm - 0.5 * r_mm) + scatter(way, beam, z_mm) +
+                           scatter(way, beam, z_mm + 0.5 * r_mm)) /
+                          3.0;
       beside_lossless += 0.5 * mean;
       beside += 0.5 * mean * power(-loss_db(beam, z_mm));
     }

@@ -19,9 +19,15 @@ glm::dvec3 Fan::direction(double beam) const noexcept {
   return base::exact_cos(angle) * axial + base::exact_sin(angle) * lateral;
 }
 
+Fan::Way Fan::way(double beam) const noexcept {
+  const glm::dvec3 along = direction(beam);
+  return {curved ? origin_lps_mm + radius_mm * (along - axial)
+                 : origin_lps_mm + (first_beam + beam * beam_step) * lateral,
+          along};
+}
+
 glm::dvec3 Fan::start_lps_mm(double beam) const noexcept {
-  if (!curved) return origin_lps_mm + (first_beam + beam * beam_step) * lateral;
-  return origin_lps_mm + radius_mm * (direction(beam) - axial);
+  return way(beam).start_lps_mm;
 }
 
 double Fan::beam_spacing_mm(double depth_mm) const noexcept {

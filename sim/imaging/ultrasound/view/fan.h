@@ -19,6 +19,12 @@ struct Fan {
 
   glm::dvec3 direction(double beam) const noexcept;
   glm::dvec3 start_lps_mm(double beam) const noexcept;  // on the face
+  // Both at once: the angle's sine and cosine are found once.
+  struct Way {
+    glm::dvec3 start_lps_mm, direction;
+    glm::dvec3 at(double depth_mm) const noexcept { return start_lps_mm + depth_mm * direction; }
+  };
+  Way way(double beam) const noexcept;
   double beam_spacing_mm(double depth_mm) const noexcept;
 };
 Fan fan_of(const UltrasoundView& view) noexcept;

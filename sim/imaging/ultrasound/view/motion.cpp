@@ -81,17 +81,16 @@ RestFan::RestFan(const UltrasoundView& view, double spacing_mm, double beside) :
   depths_per_mm_ = (depths_ - 1) / view.depth_mm;
   back_mm_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(depths_),
                   glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
+  for (int row = 0; row < rows_; ++row) ways_.push_back(fan_.way(beam_of(row)));
 }
 
 RestFan::RestFan(const UltrasoundView& view, double spacing_mm, double beside, const RestOf& rest_of)
     : RestFan(view, spacing_mm, beside) {
   std::size_t at_node = 0;
   for (int row = 0; row < rows_; ++row) {
-    const double beam = beam_of(row);
-    const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
     glm::dvec3 back_mm(0.0);
     for (int d = 0; d < depths_; ++d) {
-      const glm::dvec3 at = start + (d / depths_per_mm_) * direction;
+      const glm::dvec3 at = ways_[static_cast<std::size_t>(row)].at(d / depths_per_mm_);
       back_mm = rest_of(at, at + back_mm) - at;
       back_mm_[at_node++] = back_mm;
     }
@@ -108,7 +107,7 @@ const glm::dvec3& RestFan::node(int row, int depth) const {
   glm::dvec3& back_mm =
       back_mm_[static_cast<std::size_t>(row) * static_cast<std::size_t>(depths_) + static_cast<std::size_t>(depth)];
   if (when_asked_ && std::isnan(back_mm.x)) {
-    const glm::dvec3 at = point_of(row, depth);
+    const glm::dvec3 at = ways_[static_cast<std::size_t>(row)].at(depth / depths_per_mm_);
     back_mm = when_asked_(at, at) - at;
   }
   return back_mm;
@@ -120,7 +119,7 @@ RestFan::Between RestFan::between(double beam) const noexcept {
   return {row, at - row};
 }
 
-glm::dvec3 RestFan::rest_of(double beam, double depth_mm) const {
+glm::dvec3 RestFan::rest_of(const Fan::Way& way, double beam, double depth_mm) const {
   const Between rows = between(beam);
   const double at = depth_mm * depths_per_mm_;
   const int d = at > 0.0 ? static_cast<int>(std::min(at, depths_ - 2.0)) : 0;
@@ -129,7 +128,7 @@ glm::dvec3 RestFan::rest_of(double beam, double depth_mm) const {
     return low + rows.part * (node(rows.row + 1, depth) - low);
   };
   const glm::dvec3 upper = across(d), lower = across(d + 1);
-  return fan_.start_lps_mm(beam) + depth_mm * fan_.direction(beam) + upper + (at - d) * (lower - upper);
+  return way.at(depth_mm) + upper + (at - d) * (lower - upper);
 }
 
 std::vector<glm::dvec3> RestFan::back_of(double beam, int depths) const {
@@ -143,7 +142,8 @@ std::vector<glm::dvec3> RestFan::back_of(double beam, int depths) const {
 }
 
 BeamPath RestFan::path(double beam, int depths) const {
-  return {fan_.start_lps_mm(beam), fan_.direction(beam), back_of(beam, depths), {}, depths_per_mm_};
+  const Fan::Way way = fan_.way(beam);
+  return {way.start_lps_mm, way.direction, back_of(beam, depths), {}, depths_per_mm_};
 }
 BeamPath RestFan::path_down_to(double beam, double depth_mm) const {
   const double at = std::clamp(depth_mm * depths_per_mm_, 0.0, depths_ - 2.0);

@@ -71,9 +71,10 @@ class RestFan {
   // thread's; without back_mm().
   static RestFan when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOf rest_of);
 
-  glm::dvec3 rest_of(double beam, double depth_mm) const;
-  BeamPath path(double beam) const { return path(beam, depths_); }  // without Asides
-  BeamPath path_down_to(double beam, double depth_mm) const;        // not to be asked below that
+  glm::dvec3 rest_of(double beam, double depth_mm) const { return rest_of(fan_.way(beam), beam, depth_mm); }
+  glm::dvec3 rest_of(const Fan::Way& way, double beam, double depth_mm) const;  // that beam's
+  BeamPath path(double beam) const { return path(beam, depths_); }              // without Asides
+  BeamPath path_down_to(double beam, double depth_mm) const;                    // not to be asked below that
   std::vector<glm::dvec3> back_of(double beam) const { return back_of(beam, depths_); }
   glm::dvec3 start_lps_mm(double beam) const noexcept { return fan_.start_lps_mm(beam); }
   glm::dvec3 direction(double beam) const noexcept { return fan_.direction(beam); }
@@ -94,10 +95,6 @@ class RestFan {
 
  private:
   RestFan(const UltrasoundView& view, double spacing_mm, double beside);
-  glm::dvec3 point_of(int row, int depth) const noexcept {
-    const double beam = beam_of(row);
-    return fan_.start_lps_mm(beam) + (depth / depths_per_mm_) * fan_.direction(beam);
-  }
   const glm::dvec3& node(int row, int depth) const;
   BeamPath path(double beam, int depths) const;
   std::vector<glm::dvec3> back_of(double beam, int depths) const;
@@ -105,6 +102,7 @@ class RestFan {
   Fan fan_;
   int rows_, depths_;  // nodes
   double first_beam_, rows_per_beam_, depths_per_mm_;
+  std::vector<Fan::Way> ways_;               // of the rows
   RestOf when_asked_;                        // none: all nodes are there
   mutable std::vector<glm::dvec3> back_mm_;  // NaN: not asked for yet
 };
