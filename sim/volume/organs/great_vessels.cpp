@@ -16,6 +16,7 @@ constexpr int kLeastBloodHu = 80, kMostBloodHu = 600;
 constexpr double kStep = 1.05, kWideHu = 10.0, kWidePart = 0.08;
 // Round discs of a slice, 11 to 34 mm across, before the spine: from the middle of the body's front.
 constexpr double kAsideMm = 50.0, kAheadMm = 50.0, kBehindMm = 30.0;
+constexpr int kDeepest = 2;  // grid voxels taken off before it is asked what is joined
 constexpr double kLeastMm2 = 90.0, kMostMm2 = 900.0, kLeastRound = 0.6, kLeastParted = 0.5;
 // From one slice to the next.
 constexpr double kShiftMm = 6.0, kLevelPart = 0.1, kAreaPart = 1.7;
@@ -57,10 +58,12 @@ class Discs {
 
  private:
   bool alike(const glm::ivec3& p, double level) const { return is_alike(grid_, p, level); }
-  // With all four neighbours.
-  bool inner(const glm::ivec3& p, double level) const {
-    return alike(p, level) && alike(p + glm::ivec3(1, 0, 0), level) && alike(p - glm::ivec3(1, 0, 0), level) &&
-           alike(p + glm::ivec3(0, 1, 0), level) && alike(p - glm::ivec3(0, 1, 0), level);
+  // With all neighbours within so many steps along the slice's axes.
+  bool inner(const glm::ivec3& p, double level, int deep) const {
+    if (deep == 0) return alike(p, level);
+    for (std::size_t way = 0; way < 4; ++way)
+      if (!inner(p + kFaces[way], level, deep - 1)) return false;
+    return inner(p, level, deep - 1);
   }
 
   void slice(int k, double level, Slices& made) {
@@ -68,17 +71,24 @@ class Discs {
     const glm::dvec2 front_mm = body.centre_mm - glm::dvec2(0.0, body.half_depth_mm);
     const glm::ivec2 low(glm::floor((front_mm - glm::dvec2(kAsideMm, kAheadMm)) / kOrganGridMm)),
         high(glm::ceil((front_mm + glm::dvec2(kAsideMm, kBehindMm)) / kOrganGridMm));
-    ++pass_;
-    for (int j = low.y; j <= high.y; ++j)
-      for (int i = low.x; i <= high.x; ++i) {
-        const glm::ivec3 p(i, j, k);
-        if (!inner(p, level) || seen_[lattice_.at(p)] == pass_) continue;
-        if (auto one = disc(p, level, front_mm, body.half_width_mm))
-          made[static_cast<std::size_t>(k)].push_back(std::move(*one));
-      }
+    // What lies on a vessel and is of its level, as the heart in a late phase, is parted from it by a deeper core.
+    bool wide = true;
+    for (int deep = 1; deep <= kDeepest && wide; ++deep) {
+      wide = false;
+      ++pass_;
+      for (int j = low.y; j <= high.y; ++j)
+        for (int i = low.x; i <= high.x; ++i) {
+          const glm::ivec3 p(i, j, k);
+          if (!inner(p, level, deep) || seen_[lattice_.at(p)] == pass_) continue;
+          if (auto one = disc(p, level, deep, front_mm, body.half_width_mm, wide))
+            made[static_cast<std::size_t>(k)].push_back(std::move(*one));
+        }
+    }
   }
 
-  std::optional<Disc> disc(const glm::ivec3& from, double level, const glm::dvec2& front_mm, double half_width_mm) {
+  // `wide` becomes true where it is larger than any vessel.
+  std::optional<Disc> disc(const glm::ivec3& from, double level, int deep, const glm::dvec2& front_mm,
+                           double half_width_mm, bool& wide) {
     Disc made;
     seen_[lattice_.at(from)] = pass_;
     made.voxels.push_back(lattice_.at(from));
@@ -89,12 +99,13 @@ class Discs {
     };
     for (std::size_t which = 0; which < made.voxels.size(); ++which)
       for (std::size_t way = 0; way < 4; ++way)
-        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; inner(q, level)) take(q);
-    const std::size_t cores = made.voxels.size();
-    for (std::size_t which = 0; which < cores; ++which)
-      for (std::size_t way = 0; way < 4; ++way)
-        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; alike(q, level)) take(q);
+        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; inner(q, level, deep)) take(q);
+    for (int step = 0; step < deep; ++step)
+      for (std::size_t which = 0, cores = made.voxels.size(); which < cores; ++which)
+        for (std::size_t way = 0; way < 4; ++way)
+          if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; alike(q, level)) take(q);
     const double area_mm2 = static_cast<double>(made.voxels.size()) * kOrganGridMm * kOrganGridMm;
+    wide |= area_mm2 > kMostMm2;
     if (area_mm2 < kLeastMm2 || area_mm2 > kMostMm2) return std::nullopt;
     double faces = 0.0, joined = 0.0, farthest_mm = 0.0;
     for (const std::size_t at : made.voxels) {
