@@ -1,6 +1,7 @@
 // What an organ that is named makes of the classes of its voxels, so that ultrasound and touch know it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/volume/organs/find_organs.h"
@@ -15,6 +16,11 @@ void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueC
 
 // What a new case stores, and a scene of a CT shows: a label with a known name decides (find_tissue.h); without
 // labels organs are looked for.
+struct MarkedClasses {
+  std::vector<TissueClass> classes;
+  std::optional<Organs> organs;  // nothing: labels decided
+};
+MarkedClasses marked_classes(const Volume& volume, const LabelMap* labels);
 std::vector<TissueClass> classes_with_organs(const Volume& volume, const LabelMap* labels);
 
 }  // namespace seldinger::volume
