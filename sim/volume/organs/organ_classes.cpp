@@ -18,7 +18,7 @@ struct OrganClass {
 constexpr OrganClass class_of(FoundOrgan organ) {
   switch (organ) {
     case FoundOrgan::liver:
-      return {TissueClass::liver, true};
+      return {TissueClass::liver};
     case FoundOrgan::spleen:
       return {TissueClass::spleen, true};
     case FoundOrgan::right_kidney:

@@ -90,8 +90,12 @@ TEST_P(SixtyWaysOfATorso, KeepTrueSkinAndBone) {
                   scored.vessel_as_bone);
       std::fflush(stdout);
       EXPECT_GE(scored.bone_dice, way.spacing_mm <= 2 ? 0.9 : 0.8);
-      if (scored.ribs > 0.0) EXPECT_GE(scored.rib_as_bone, 0.85);
-      if (scored.vessels > 0.0) EXPECT_LE(scored.vessel_as_bone, 0.02);
+      if (scored.ribs > 0.0) {
+        EXPECT_GE(scored.rib_as_bone, 0.85);
+      }
+      if (scored.vessels > 0.0) {
+        EXPECT_LE(scored.vessel_as_bone, 0.02);
+      }
     }
   }
 }

@@ -175,7 +175,9 @@ TEST(CutSkin, OfGasOverFluidThereIsNone) {
   for (int k = 0; k < 40; ++k)
     for (int j = 0; j < 60; ++j)
       for (int i = 0; i < 90; ++i)
-        if (gas(i, j, k) && body_at(i, j)) ASSERT_EQ(body[made.index(i, j, k)], 1) << i << " " << j << " " << k;
+        if (gas(i, j, k) && body_at(i, j)) {
+          ASSERT_EQ(body[made.index(i, j, k)], 1) << i << " " << j << " " << k;
+        }
 }
 
 TEST(CutSkin, WithinTheBodyThereIsNone) {
