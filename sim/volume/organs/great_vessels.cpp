@@ -46,7 +46,11 @@ bool is_alike(const OrganGrid& grid, const glm::ivec3& p, double level) {
 class Discs {
  public:
   Discs(const OrganGrid& grid, const Spine& spine)
-      : grid_(grid), spine_(spine), lattice_(grid.volume.size_voxels), seen_(grid.soft.size(), 0) {}
+      : grid_(grid),
+        spine_(spine),
+        lattice_(grid.volume.size_voxels),
+        seen_(grid.soft.size(), 0),
+        depth_(lattice_.at({0, 0, 1}), 0) {}
 
   Slices find() {
     Slices made(spine_.bodies.size());
@@ -57,13 +61,26 @@ class Discs {
   }
 
  private:
-  bool alike(const glm::ivec3& p, double level) const { return is_alike(grid_, p, level); }
-  // With all neighbours within so many steps along the slice's axes.
-  bool inner(const glm::ivec3& p, double level, int deep) const {
-    if (deep == 0) return alike(p, level);
-    for (std::size_t way = 0; way < 4; ++way)
-      if (!inner(p + kFaces[way], level, deep - 1)) return false;
-    return inner(p, level, deep - 1);
+  // Of a place of the slice: 0 where it is not alike, 1 at the rim of what is, to kDeepest + 1. Nothing is alike so
+  // far from where vessels are looked for that none reaches there.
+  int depth(const glm::ivec3& p) const {
+    return p.x < low_.x || p.y < low_.y || p.x > high_.x || p.y > high_.y ? 0 : depth_[lattice_.at({p.x, p.y, 0})];
+  }
+  void find_depths(int k, double level, const glm::ivec2& low, const glm::ivec2& high) {
+    constexpr int kBeside = 16;  // grid voxels, 48 mm: no disc that is round enough is so long
+    low_ = glm::max(low - kBeside, glm::ivec2(0));
+    high_ = glm::min(high + kBeside, glm::ivec2(lattice_.size()) - 1);
+    const auto each = [&](const auto& what) {
+      for (int j = low_.y; j <= high_.y; ++j)
+        for (int i = low_.x; i <= high_.x; ++i) what(glm::ivec3(i, j, k), depth_[lattice_.at({i, j, 0})]);
+    };
+    each([&](const glm::ivec3& p, std::uint8_t& depth) { depth = is_alike(grid_, p, level) ? 1 : 0; });
+    for (int deep = 1; deep <= kDeepest; ++deep)
+      each([&](const glm::ivec3& p, std::uint8_t& its) {
+        if (its == deep && depth(p + kFaces[0]) >= deep && depth(p + kFaces[1]) >= deep &&
+            depth(p + kFaces[2]) >= deep && depth(p + kFaces[3]) >= deep)
+          ++its;
+      });
   }
 
   void slice(int k, double level, Slices& made) {
@@ -72,6 +89,7 @@ class Discs {
     const glm::ivec2 low(glm::floor((front_mm - glm::dvec2(kAsideMm, kAheadMm)) / kOrganGridMm)),
         high(glm::ceil((front_mm + glm::dvec2(kAsideMm, kBehindMm)) / kOrganGridMm));
     // What lies on a vessel and is of its level, as the heart in a late phase, is parted from it by a deeper core.
+    find_depths(k, level, low, high);
     bool wide = true;
     for (int deep = 1; deep <= kDeepest && wide; ++deep) {
       wide = false;
@@ -79,7 +97,7 @@ class Discs {
       for (int j = low.y; j <= high.y; ++j)
         for (int i = low.x; i <= high.x; ++i) {
           const glm::ivec3 p(i, j, k);
-          if (!inner(p, level, deep) || seen_[lattice_.at(p)] == pass_) continue;
+          if (depth(p) <= deep || seen_[lattice_.at(p)] == pass_) continue;
           if (auto one = disc(p, level, deep, front_mm, body.half_width_mm, wide))
             made[static_cast<std::size_t>(k)].push_back(std::move(*one));
         }
@@ -99,11 +117,11 @@ class Discs {
     };
     for (std::size_t which = 0; which < made.voxels.size(); ++which)
       for (std::size_t way = 0; way < 4; ++way)
-        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; inner(q, level, deep)) take(q);
+        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; depth(q) > deep) take(q);
     for (int step = 0; step < deep; ++step)
       for (std::size_t which = 0, cores = made.voxels.size(); which < cores; ++which)
         for (std::size_t way = 0; way < 4; ++way)
-          if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; alike(q, level)) take(q);
+          if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; depth(q) > 0) take(q);
     const double area_mm2 = static_cast<double>(made.voxels.size()) * kOrganGridMm * kOrganGridMm;
     wide |= area_mm2 > kMostMm2;
     if (area_mm2 < kLeastMm2 || area_mm2 > kMostMm2) return std::nullopt;
@@ -119,7 +137,7 @@ class Discs {
         const glm::ivec3 q = lattice_.place(at) + kFaces[way];
         if (lattice_.holds(q) && seen_[lattice_.at(q)] == pass_) continue;
         faces += 1.0;
-        joined += alike(q, level) ? 1.0 : 0.0;
+        joined += depth(q) > 0 ? 1.0 : 0.0;
       }
     }
     const double reach_mm = farthest_mm + kOrganGridMm / 2.0,
@@ -137,6 +155,8 @@ class Discs {
   Lattice lattice_;
   std::vector<std::uint32_t> seen_;
   std::uint32_t pass_ = 0;
+  std::vector<std::uint8_t> depth_;  // of a slice, between low_ and high_
+  glm::ivec2 low_{0}, high_{-1};
 };
 
 bool follows(const Disc& one, const Disc& next) {
