@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,11 +20,18 @@
 namespace seldinger::casedb {
 namespace {
 
-void expect_every_crop(const volume::Volume& volume) {
-  constexpr double kLost = 0.01, kLostWhereItGrazes = 1.0;
+// Where skin is lost (docs/decisions/0060): a circle that grazes it, and a nook of a real CT as dense as lung.
+double most_lost_share(const volume::Crop& crop, bool dense_nook) {
+  return crop.name == "circle narrow" ? 1.0 : dense_nook && crop.name == "oblique front, flat" ? 0.1 : 0.01;
+}
+
+void expect_every_crop(const volume::Volume& volume, bool dense_nook = false) {
   const WholePatient whole(volume);
-  for (const volume::Crop& crop : volume::crops())
-    expect_true_skin(whole, crop, crop.name == "circle narrow" ? kLostWhereItGrazes : kLost);
+  for (const volume::Crop& crop : volume::crops()) expect_true_skin(whole, crop, most_lost_share(crop, dense_nook));
+}
+
+bool has_dense_nook(std::string_view ct) {
+  return ct == "ct-thorax-inlet/thorax_inlet_1mm.mha";
 }
 
 class CutTorsoLong : public testing::TestWithParam<double> {};
@@ -35,6 +43,12 @@ TEST_P(CutTorsoLong, EveryCropKeepsTrueSkin) {
 
 INSTANTIATE_TEST_SUITE_P(Spacings, CutTorsoLong, testing::Values(1.0, 2.0, 3.0, 5.0));
 
+// Thighs, between which air lies.
+TEST(CutGroinLong, EveryCropKeepsTrueSkin) {
+  const volume::PhantomOptions options{.spacing_mm = glm::dvec3(3.0), .region = volume::Region::groin};
+  expect_every_crop(volume::make_phantom(options).volume);
+}
+
 class CutCtLong : public testing::TestWithParam<std::tuple<const char*, double>> {};
 
 TEST_P(CutCtLong, EveryCropKeepsTrueSkin) {
@@ -42,7 +56,7 @@ TEST_P(CutCtLong, EveryCropKeepsTrueSkin) {
   const auto& [name, spacing_mm] = GetParam();
   const auto source = read_source(fixtures::shared_data_dir() / name);
   ASSERT_TRUE(source);
-  expect_every_crop(volume::coarser(source->volume, spacing_mm));
+  expect_every_crop(volume::coarser(source->volume, spacing_mm), has_dense_nook(name));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -59,11 +73,10 @@ std::vector<std::vector<volume::Way>> alike_ways() {
     if (found == made.end()) found = made.insert(made.end(), std::vector<volume::Way>());
     found->push_back(std::move(way));
   }
+  std::stable_sort(made.begin(), made.end(), [](const auto& one, const auto& other) {  // one fine torso is kept
+    return std::pair(one.front().phase, one.front().metal) < std::pair(other.front().phase, other.front().metal);
+  });
   return made;
-}
-
-void expect_true_skin_of(const WholePatient& whole, const volume::Way& way) {
-  expect_true_skin(whole, way.crop, way.crop.name == "circle narrow" ? 1.0 : 0.01);
 }
 
 class SixtyWaysOfATorso : public testing::TestWithParam<volume::Body> {};
@@ -83,7 +96,7 @@ TEST_P(SixtyWaysOfATorso, KeepTrueSkinAndBone) {
                                 " mm, noise " + std::to_string(static_cast<int>(way.noise_sd_hu)) +
                                 (way.metal ? ", metal" : "");
       SCOPED_TRACE(where);
-      expect_true_skin_of(whole, way);
+      expect_true_skin(whole, way.crop, most_lost_share(way.crop, false));
       const volume::EnhancedTorso field = cropped(torso, whole.body(), way.crop);
       const volume::TorsoScore scored = score(field, find_tissue(field.volume));
       std::printf("%-60s %.3f %.3f %.4f\n", where.c_str(), scored.bone_dice, scored.rib_as_bone,
@@ -113,7 +126,7 @@ TEST_P(SixtyWaysOfACt, KeepTrueSkin) {
     const WholePatient whole(seen(source->volume, some.front()));
     for (const volume::Way& way : some) {
       SCOPED_TRACE(std::to_string(way.spacing_mm) + " mm");
-      expect_true_skin_of(whole, way);
+      expect_true_skin(whole, way.crop, most_lost_share(way.crop, has_dense_nook(GetParam())));
     }
   }
 }
