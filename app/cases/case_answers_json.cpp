@@ -1,5 +1,8 @@
 #include "app/cases/case_answers_json.h"
 
+#include <nlohmann/json.hpp>
+
+#include "app/attempts/answers_json.h"
 #include "casedb/database/values_json.h"
 
 namespace seldinger::app {
@@ -50,6 +53,14 @@ std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& 
     list.push_back({{"check", one.name}, {"holds", one.holds}, {"text", one.text}});
   return text(
       {{"case_id", case_id}, {"holds", check.holds()}, {"checks", list}, {"rule_may_name", check.rule_may_name}});
+}
+
+std::string json_of_imported(const casedb::CaseParts& parts, const volume::TissueTold& tissue,
+                             const std::optional<volume::Organs>& organs) {
+  Json json = Json::parse(json_of_case(parts));
+  json["tissue"] = tissue_json(tissue);
+  json["organs"] = organs_json(organs);
+  return text(json);
 }
 
 std::string json_of_needs(const std::string& case_id, cases::SightLaw sight_law, const session::CaseNeeds& needs,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "casedb/cases/case_checks.h"
+#include "casedb/json/case_json.h"
 #include "session/attempt/rehearsal.h"
 #include "session/case/case_check.h"
 #include "session/case/case_needs.h"
@@ -23,6 +24,9 @@ struct LabelCount {
 std::string json_of_structure(const std::string& structure_id);
 std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
 std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& check);
+// A case with what its CT holds, as json_of_needs tells it.
+std::string json_of_imported(const casedb::CaseParts& parts, const volume::TissueTold& tissue,
+                             const std::optional<volume::Organs>& organs);
 std::string json_of_needs(const std::string& case_id, cases::SightLaw sight_law, const session::CaseNeeds& needs,
                           const volume::TissueTold& tissue, const std::optional<volume::Organs>& organs);
 std::string json_of_rehearsal(const std::string& case_id, const session::Rehearsal& rehearsal);

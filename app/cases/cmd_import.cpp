@@ -8,16 +8,20 @@
 
 #include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
+#include "app/cases/case_answers_json.h"
 #include "app/cases/import_case.h"
 #include "app/cases/privacy_text.h"
 #include "app/cases/tissue_text.h"
 #include "app/cli/command.h"
 #include "app/cli/library_place.h"
 #include "app/cli/words.h"
+#include "casedb/cases/classed_case.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/cases/versions.h"
 #include "casedb/import/ct_rules.h"
 #include "sim/volume/organs/find_organs.h"
+#include "sim/volume/organs/organ_classes.h"
+#include "sim/volume/tissue/tissue_told.h"
 
 namespace seldinger::app {
 
@@ -118,7 +122,9 @@ int run_import(const Arguments& arguments) {
     if (!made) return refuse(made.error());
     library.emplace(std::move(*made));
   }
-  const std::string case_id = casedb::add_case(*library, *imported);
+  const volume::MarkedClasses marked =
+      volume::marked_classes(imported->volume, imported->labels ? &*imported->labels : nullptr);
+  const std::string case_id = casedb::add_case(*library, *imported, marked.classes);
   if (!arguments.has("--json")) {  // at once: whoever ends the work that follows learns what there is by now
     std::printf("case %s\n", case_id.c_str());
     std::fflush(stdout);
@@ -126,8 +132,10 @@ int run_import(const Arguments& arguments) {
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
   tell_same_ct(*library, *row);
+  const volume::TissueTold tissue =
+      volume::tell_tissue(imported->volume, marked.classes, imported->labels.has_value());
   if (arguments.has("--json")) {
-    std::fputs(json_of_case(casedb::load_parts(*library, *row)).c_str(), stdout);
+    std::fputs(json_of_imported(casedb::load_parts(*library, *row), tissue, marked.organs).c_str(), stdout);
     return kDone;
   }
   std::printf("%s\n%d x %d x %d voxels, %.4g x %.4g x %.4g mm, HU %d to %d, %d slices\n", row->title.c_str(),
@@ -136,11 +144,8 @@ int run_import(const Arguments& arguments) {
   for (const base::Problem& warning : row->warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   std::fputs(privacy_text(*row).c_str(), stdout);
-  const auto classes = casedb::load_classes(*library, *row);
-  if (!classes) return refuse(classes.error());
-  std::fputs(tissue_text(volume::tell_tissue(imported->volume, *classes, imported->labels.has_value())).c_str(),
-             stdout);
-  if (!imported->labels) std::fputs(organs_text(volume::find_organs(imported->volume, *classes)).c_str(), stdout);
+  std::fputs(tissue_text(tissue).c_str(), stdout);
+  if (marked.organs) std::fputs(organs_text(*marked.organs).c_str(), stdout);
   return kDone;
 }
 

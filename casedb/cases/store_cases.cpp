@@ -8,6 +8,7 @@
 #include "casedb/cases/case_rows.h"
 #include "casedb/cases/cases.h"
 #include "casedb/cases/changeable_case.h"
+#include "casedb/cases/classed_case.h"
 #include "casedb/cases/setting_columns.h"
 #include "casedb/database/audit.h"
 #include "casedb/database/new_assets.h"
@@ -235,12 +236,18 @@ std::optional<cases::PatientPosition> position_from(const std::string& name) {
 }
 
 std::string add_case(Library& library, const NewCase& new_case) {
+  return add_case(library, new_case,
+                  volume::classes_with_organs(new_case.volume, new_case.labels ? &*new_case.labels : nullptr));
+}
+
+std::string add_case(Library& library, const NewCase& new_case, const std::vector<volume::TissueClass>& classes) {
   const volume::Volume& volume = new_case.volume;
   const std::size_t voxels = static_cast<std::size_t>(volume.size_voxels.x) *
                              static_cast<std::size_t>(volume.size_voxels.y) *
                              static_cast<std::size_t>(volume.size_voxels.z);
   CHECK(voxels > 0 && volume.hu.size() == voxels);
   CHECK(!new_case.labels || new_case.labels->label.size() == voxels);
+  CHECK(classes.size() == voxels);
   CHECK(check_case_title(new_case.title));
 
   NewAssets assets(library);
@@ -250,8 +257,7 @@ std::string add_case(Library& library, const NewCase& new_case) {
   if (new_case.labels) labels_sha256 = assets.add(volume::bytes_from_labels(*new_case.labels));
   std::string original_sha256;
   if (new_case.prepared) original_sha256 = assets.add(volume::bytes_from_volume(new_case.prepared->original));
-  const std::string classes_sha256 = assets.add(volume::bytes_from_classes(
-      volume::classes_with_organs(volume, new_case.labels ? &*new_case.labels : nullptr)));
+  const std::string classes_sha256 = assets.add(volume::bytes_from_classes(classes));
 
   Transaction transaction(library.database());
   assets.make_sure();

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/fixtures/process.h"
@@ -190,6 +191,11 @@ TEST(Cli, ImportAnswersTheContractAndTheTitleIsNotTheSources) {
   ASSERT_EQ(answer.at("lps_from_voxel").size(), 16U);
   EXPECT_NEAR(answer.at("lps_from_voxel")[11].get<double>(), -178.3, 0.05) << "row-major: z of the first voxel";
   EXPECT_EQ(answer.at("title").get<std::string>().find("C3L"), std::string::npos);
+  EXPECT_EQ(answer.at("tissue").at("contrast_phase"), "venous");
+  std::set<std::string> named;
+  for (const Json& one : answer.at("organs"))
+    if (one.at("named").get<bool>()) named.insert(one.at("organ").get<std::string>());
+  EXPECT_TRUE(named.count("spleen") == 1 && named.count("aorta") == 1) << answer.at("organs");
   // Nothing of the DICOM's identity is anywhere in the library.
   for (const auto& entry : std::filesystem::recursive_directory_iterator(library)) {
     if (!entry.is_regular_file()) continue;

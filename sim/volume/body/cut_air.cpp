@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
@@ -19,6 +20,11 @@ constexpr double kClearVote = 3.0;         // against lung
 constexpr double kAllDense = 0.9;          // of a sure lung: with some of the room's air it is less, …
 constexpr double kLungMeanHu = -900.0;     // … and foam, 0.05 g/cm³ and less, is lighter
 constexpr double kSureVote = 20.0;  // against a sure lung: a mattress that lends coarse voxels some of its HU
+// Between thighs, or neck and shoulder, air lies in a nook that opens to an end of the CT: its walls are flat or
+// bulge into it, so that it is about as large as the triangle that it fills, and it grows all the way to that end.
+// What a plane cuts off a round lumen is 1.33 triangles where it is thinnest and π/2 through the middle.
+constexpr double kNookTriangles = 1.4, kNookGrows = 1.4, kNookEndPart = 0.9;
+constexpr double kLeastNookMm = 20.0, kLeastNookMl = 5.0;  // less says nothing of a shape
 constexpr int kSidesOfTheRoom = 3;  // of the field's box, touched by one run: no lung or bowel is so wide
 constexpr double kTogether = 0.3;   // of the smaller of two pieces lies beside the other
 constexpr double kBesideBodyShare =
@@ -32,10 +38,13 @@ struct EdgePiece {
   double voxels = 0.0, inner = 0.0, dense = 0.0, sum_hu = 0.0;      // dense, sum_hu: of inner ones
   double room_votes = 0.0, corner_votes = 0.0, inside_votes = 0.0;  // edge voxels
   double by_tissue = 0.0, by_body = 0.0;                            // voxel faces
+  double beyond = 0.0, triangles = 0.0;  // voxels: behind the lines between runs' ends, of the triangles there
+  int slice = 0;
   void add(const EdgePiece& other) {
     voxels += other.voxels, inner += other.inner, dense += other.dense, sum_hu += other.sum_hu;
     room_votes += other.room_votes, inside_votes += other.inside_votes, corner_votes += other.corner_votes;
     by_tissue += other.by_tissue, by_body += other.by_body;
+    beyond += other.beyond, triangles += other.triangles;
   }
 };
 
@@ -118,6 +127,7 @@ class EdgeAir {
     const auto id = static_cast<std::int32_t>(pieces_.size());
     EdgePiece& piece = pieces_.emplace_back();
     piece.parent = static_cast<std::uint32_t>(id);
+    piece.slice = slice_;
     map_[at(from.x, from.y)] = id;
     begins_.resize(pieces_.size() - first_);
     begins_.back() = places_.size();
@@ -177,8 +187,10 @@ class EdgeAir {
         touched[2] |= p.y == low_.y, touched[3] |= p.y == high_.y;
       }
       const auto sides = std::count(touched.begin(), touched.end(), true);
+      const Shape shape = shape_of(a, b);
       const bool room = sides >= kSidesOfTheRoom || tissue_share(a, b) >= kRoomTissueShare ||
-                        outer_share(a, b) >= kRoomOuterShare;
+                        shape.outer_share >= kRoomOuterShare;
+      if (!room) piece_at(a).beyond += shape.beyond, piece_at(a).triangles += shape.triangle;
       for (std::size_t i = begin; i < step; ++i) {
         EdgePiece& piece = piece_at(edge_[(first + i) % count]);
         (room ? piece.room_votes : sides >= 2 ? piece.corner_votes : piece.inside_votes) += 1.0;
@@ -203,15 +215,26 @@ class EdgeAir {
     return other / (steps + 1);
   }
 
-  // Of the piece that a and b are of: what lies between the straight line from a to b and the edge.
-  double outer_share(const glm::ivec2& a, const glm::ivec2& b) const {
+  // Of the piece that a and b are of.
+  struct Shape {
+    double outer_share = 0.0;             // what lies between the straight line from a to b and the edge
+    double beyond = 0.0, triangle = 0.0;  // voxels beyond that line; of the triangle from a and b to the farthest
+  };
+  Shape shape_of(const glm::ivec2& a, const glm::ivec2& b) const {
     const std::size_t which = static_cast<std::size_t>(map_[at(a.x, a.y)]) - first_, begin = begins_[which],
                       end = which + 1 < begins_.size() ? begins_[which + 1] : places_.size();
     const glm::ivec2 way = b - a;
-    const auto outer = std::count_if(
-        places_.begin() + static_cast<std::ptrdiff_t>(begin), places_.begin() + static_cast<std::ptrdiff_t>(end),
-        [&](const glm::ivec2& p) { return way.x * (p.y - a.y) - way.y * (p.x - a.x) < 0; });
-    return static_cast<double>(outer) / static_cast<double>(end - begin);
+    double outer = 0.0;
+    int farthest = 0;  // from the line, times its length
+    for (std::size_t i = begin; i < end; ++i) {
+      const glm::ivec2& p = places_[i];
+      const int off = way.x * (p.y - a.y) - way.y * (p.x - a.x);
+      outer += off < 0 ? 1.0 : 0.0;
+      farthest = std::max(farthest, off);
+    }
+    const auto voxels = static_cast<double>(end - begin);
+    const double length = glm::length(glm::dvec2(way));  // both ends are half a voxel farther out
+    return {outer / voxels, voxels - outer, 0.5 * (length + 1.0) * (length > 0.0 ? farthest / length + 1.0 : 1.0)};
   }
 
   void join(const std::vector<std::int32_t>& below) {
@@ -239,23 +262,59 @@ class EdgeAir {
     return piece;
   }
 
+  // Voxels of what votes together, slice after slice.
+  struct Growth {
+    int first = 0;
+    std::vector<double> voxels;
+  };
+  std::vector<Growth> growth() {
+    std::vector<Growth> made(pieces_.size());
+    for (std::uint32_t piece = 1; piece < pieces_.size(); ++piece) {
+      Growth& of = made[root(piece)];
+      if (of.voxels.empty()) of.first = pieces_[piece].slice;
+      of.voxels.resize(static_cast<std::size_t>(pieces_[piece].slice - of.first + 1), 0.0);
+      of.voxels.back() += pieces_[piece].voxels;
+    }
+    return made;
+  }
+
+  bool is_nook(const EdgePiece& sum, const Growth& of) const {
+    const glm::dvec3 mm = volume_.spacing_mm;
+    const double voxel_mm3 = mm.x * mm.y * mm.z,
+                 slice_mm = voxel_mm3 / (slices_.spacing_mm().x * slices_.spacing_mm().y);
+    if (sum.beyond > kNookTriangles * sum.triangles || sum.voxels * voxel_mm3 < kLeastNookMl * 1000.0 ||
+        static_cast<double>(of.voxels.size()) * slice_mm < kLeastNookMm)
+      return false;
+    const double largest = *std::max_element(of.voxels.begin(), of.voxels.end());
+    const auto opens = [&](double at_end, double at_other) {
+      return at_end >= kNookEndPart * largest && at_end >= kNookGrows * at_other;
+    };
+    const bool to_first = of.first == 0, to_last = of.first + static_cast<int>(of.voxels.size()) == slices_.count();
+    return (to_first && opens(of.voxels.front(), of.voxels.back())) ||
+           (to_last && opens(of.voxels.back(), of.voxels.front()));
+  }
+
   // By piece: 1 where it is the body's.
   std::vector<std::uint8_t> judged() {
     std::vector<EdgePiece> sums(pieces_.size());
     for (std::uint32_t piece = 1; piece < pieces_.size(); ++piece) sums[root(piece)].add(pieces_[piece]);
+    const std::vector<Growth> grown = growth();
     const glm::dvec3 mm = volume_.spacing_mm;
     const double least_inner = kLeastLungMl * 1000.0 / (mm.x * mm.y * mm.z);
     std::vector<std::uint8_t> inside(pieces_.size(), 0);
     for (std::uint32_t piece = 1; piece < pieces_.size(); ++piece) {
-      const EdgePiece& sum = sums[root(piece)];
-      const bool lung = sum.inner >= least_inner && sum.dense * 3.0 > sum.inner * 2.0;
+      if (root(piece) != piece) continue;
+      const EdgePiece& sum = sums[piece];
+      const bool dense = sum.dense * 3.0 > sum.inner * 2.0, lung = dense && sum.inner >= least_inner;
       const bool sure = lung && sum.dense >= kAllDense * sum.inner && sum.sum_hu >= kLungMeanHu * sum.inner;
       // Lung fills corners of a field; what is as thin as gas there is the room's beside a round body.
       const double against = sure ? kSureVote : kClearVote;
       const bool votes = lung ? (sum.inside_votes + sum.corner_votes) * against > sum.room_votes
                               : sum.inside_votes > sum.room_votes + sum.corner_votes;
-      inside[piece] = votes && sum.by_body >= kBesideBodyShare * sum.by_tissue ? 1 : 0;
+      inside[piece] =
+          votes && sum.by_body >= kBesideBodyShare * sum.by_tissue && (dense || !is_nook(sum, grown[piece]));
     }
+    for (std::uint32_t piece = 1; piece < pieces_.size(); ++piece) inside[piece] = inside[root(piece)];
     return inside;
   }
 

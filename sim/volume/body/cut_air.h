@@ -16,7 +16,8 @@ namespace seldinger::volume {
 // two ends leads through tissue; inside, where the edge cuts a lung or a bowel, it leads through the air itself.
 // Where most of a piece lies between that line and the edge, it lies along a body and not in it; what is thin as
 // gas and turns round a corner of the field is the room's. Pieces of neighbouring slices that overlap vote
-// together. What is as dense as lung is lung but for a clear vote against.
+// together; where they are a nook between thighs, or neck and shoulder, that opens to an end of the CT, they are
+// the room's whatever their votes. What is as dense as lung is lung but for a clear vote against.
 std::vector<std::uint8_t> air_cut_by_edge(const Volume& volume, const AxialSlices& slices,
                                           const std::vector<std::uint8_t>& tissue,
                                           const std::vector<std::uint8_t>& body,

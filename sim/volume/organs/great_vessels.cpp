@@ -16,6 +16,7 @@ constexpr int kLeastBloodHu = 80, kMostBloodHu = 600;
 constexpr double kStep = 1.05, kWideHu = 10.0, kWidePart = 0.08;
 // Round discs of a slice, 11 to 34 mm across, before the spine: from the middle of the body's front.
 constexpr double kAsideMm = 50.0, kAheadMm = 50.0, kBehindMm = 30.0;
+constexpr int kDeepest = 2;  // grid voxels taken off before it is asked what is joined
 constexpr double kLeastMm2 = 90.0, kMostMm2 = 900.0, kLeastRound = 0.6, kLeastParted = 0.5;
 // From one slice to the next.
 constexpr double kShiftMm = 6.0, kLevelPart = 0.1, kAreaPart = 1.7;
@@ -45,7 +46,11 @@ bool is_alike(const OrganGrid& grid, const glm::ivec3& p, double level) {
 class Discs {
  public:
   Discs(const OrganGrid& grid, const Spine& spine)
-      : grid_(grid), spine_(spine), lattice_(grid.volume.size_voxels), seen_(grid.soft.size(), 0) {}
+      : grid_(grid),
+        spine_(spine),
+        lattice_(grid.volume.size_voxels),
+        seen_(grid.soft.size(), 0),
+        depth_(lattice_.at({0, 0, 1}), 0) {}
 
   Slices find() {
     Slices made(spine_.bodies.size());
@@ -56,11 +61,26 @@ class Discs {
   }
 
  private:
-  bool alike(const glm::ivec3& p, double level) const { return is_alike(grid_, p, level); }
-  // With all four neighbours.
-  bool inner(const glm::ivec3& p, double level) const {
-    return alike(p, level) && alike(p + glm::ivec3(1, 0, 0), level) && alike(p - glm::ivec3(1, 0, 0), level) &&
-           alike(p + glm::ivec3(0, 1, 0), level) && alike(p - glm::ivec3(0, 1, 0), level);
+  // Of a place of the slice: 0 where it is not alike, 1 at the rim of what is, to kDeepest + 1. Nothing is alike so
+  // far from where vessels are looked for that none reaches there.
+  int depth(const glm::ivec3& p) const {
+    return p.x < low_.x || p.y < low_.y || p.x > high_.x || p.y > high_.y ? 0 : depth_[lattice_.at({p.x, p.y, 0})];
+  }
+  void find_depths(int k, double level, const glm::ivec2& low, const glm::ivec2& high) {
+    constexpr int kBeside = 16;  // grid voxels, 48 mm: no disc that is round enough is so long
+    low_ = glm::max(low - kBeside, glm::ivec2(0));
+    high_ = glm::min(high + kBeside, glm::ivec2(lattice_.size()) - 1);
+    const auto each = [&](const auto& what) {
+      for (int j = low_.y; j <= high_.y; ++j)
+        for (int i = low_.x; i <= high_.x; ++i) what(glm::ivec3(i, j, k), depth_[lattice_.at({i, j, 0})]);
+    };
+    each([&](const glm::ivec3& p, std::uint8_t& depth) { depth = is_alike(grid_, p, level) ? 1 : 0; });
+    for (int deep = 1; deep <= kDeepest; ++deep)
+      each([&](const glm::ivec3& p, std::uint8_t& its) {
+        if (its == deep && depth(p + kFaces[0]) >= deep && depth(p + kFaces[1]) >= deep &&
+            depth(p + kFaces[2]) >= deep && depth(p + kFaces[3]) >= deep)
+          ++its;
+      });
   }
 
   void slice(int k, double level, Slices& made) {
@@ -68,17 +88,25 @@ class Discs {
     const glm::dvec2 front_mm = body.centre_mm - glm::dvec2(0.0, body.half_depth_mm);
     const glm::ivec2 low(glm::floor((front_mm - glm::dvec2(kAsideMm, kAheadMm)) / kOrganGridMm)),
         high(glm::ceil((front_mm + glm::dvec2(kAsideMm, kBehindMm)) / kOrganGridMm));
-    ++pass_;
-    for (int j = low.y; j <= high.y; ++j)
-      for (int i = low.x; i <= high.x; ++i) {
-        const glm::ivec3 p(i, j, k);
-        if (!inner(p, level) || seen_[lattice_.at(p)] == pass_) continue;
-        if (auto one = disc(p, level, front_mm, body.half_width_mm))
-          made[static_cast<std::size_t>(k)].push_back(std::move(*one));
-      }
+    // What lies on a vessel and is of its level, as the heart in a late phase, is parted from it by a deeper core.
+    find_depths(k, level, low, high);
+    bool wide = true;
+    for (int deep = 1; deep <= kDeepest && wide; ++deep) {
+      wide = false;
+      ++pass_;
+      for (int j = low.y; j <= high.y; ++j)
+        for (int i = low.x; i <= high.x; ++i) {
+          const glm::ivec3 p(i, j, k);
+          if (depth(p) <= deep || seen_[lattice_.at(p)] == pass_) continue;
+          if (auto one = disc(p, level, deep, front_mm, body.half_width_mm, wide))
+            made[static_cast<std::size_t>(k)].push_back(std::move(*one));
+        }
+    }
   }
 
-  std::optional<Disc> disc(const glm::ivec3& from, double level, const glm::dvec2& front_mm, double half_width_mm) {
+  // `wide` becomes true where it is larger than any vessel.
+  std::optional<Disc> disc(const glm::ivec3& from, double level, int deep, const glm::dvec2& front_mm,
+                           double half_width_mm, bool& wide) {
     Disc made;
     seen_[lattice_.at(from)] = pass_;
     made.voxels.push_back(lattice_.at(from));
@@ -89,12 +117,13 @@ class Discs {
     };
     for (std::size_t which = 0; which < made.voxels.size(); ++which)
       for (std::size_t way = 0; way < 4; ++way)
-        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; inner(q, level)) take(q);
-    const std::size_t cores = made.voxels.size();
-    for (std::size_t which = 0; which < cores; ++which)
-      for (std::size_t way = 0; way < 4; ++way)
-        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; alike(q, level)) take(q);
+        if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; depth(q) > deep) take(q);
+    for (int step = 0; step < deep; ++step)
+      for (std::size_t which = 0, cores = made.voxels.size(); which < cores; ++which)
+        for (std::size_t way = 0; way < 4; ++way)
+          if (const glm::ivec3 q = lattice_.place(made.voxels[which]) + kFaces[way]; depth(q) > 0) take(q);
     const double area_mm2 = static_cast<double>(made.voxels.size()) * kOrganGridMm * kOrganGridMm;
+    wide |= area_mm2 > kMostMm2;
     if (area_mm2 < kLeastMm2 || area_mm2 > kMostMm2) return std::nullopt;
     double faces = 0.0, joined = 0.0, farthest_mm = 0.0;
     for (const std::size_t at : made.voxels) {
@@ -108,7 +137,7 @@ class Discs {
         const glm::ivec3 q = lattice_.place(at) + kFaces[way];
         if (lattice_.holds(q) && seen_[lattice_.at(q)] == pass_) continue;
         faces += 1.0;
-        joined += alike(q, level) ? 1.0 : 0.0;
+        joined += depth(q) > 0 ? 1.0 : 0.0;
       }
     }
     const double reach_mm = farthest_mm + kOrganGridMm / 2.0,
@@ -126,6 +155,8 @@ class Discs {
   Lattice lattice_;
   std::vector<std::uint32_t> seen_;
   std::uint32_t pass_ = 0;
+  std::vector<std::uint8_t> depth_;  // of a slice, between low_ and high_
+  glm::ivec2 low_{0}, high_{-1};
 };
 
 bool follows(const Disc& one, const Disc& next) {

@@ -18,7 +18,7 @@ struct OrganClass {
 constexpr OrganClass class_of(FoundOrgan organ) {
   switch (organ) {
     case FoundOrgan::liver:
-      return {TissueClass::liver, true};
+      return {TissueClass::liver};
     case FoundOrgan::spleen:
       return {TissueClass::spleen, true};
     case FoundOrgan::right_kidney:
@@ -73,10 +73,17 @@ void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueC
     }
 }
 
+MarkedClasses marked_classes(const Volume& volume, const LabelMap* labels) {
+  MarkedClasses made{tissue_classes(volume, labels), std::nullopt};
+  if (labels == nullptr) {
+    made.organs = find_organs(volume, made.classes);
+    mark_organs(volume, *made.organs, made.classes);
+  }
+  return made;
+}
+
 std::vector<TissueClass> classes_with_organs(const Volume& volume, const LabelMap* labels) {
-  std::vector<TissueClass> classes = tissue_classes(volume, labels);
-  if (labels == nullptr) mark_organs(volume, find_organs(volume, classes), classes);
-  return classes;
+  return marked_classes(volume, labels).classes;
 }
 
 }  // namespace seldinger::volume

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <initializer_list>
+#include <utility>
 
 #include "sim/base/check.h"
 
@@ -55,6 +57,31 @@ std::vector<Crop> crops() {
       {"five faces", {.2, 0, .2, .2, .2, .2}},
       {"sides and ends", {.25, .25, 0, 0, .2, .2}},
   };
+  for (Crop crop : std::initializer_list<Crop>{
+           {"left a little", {0, .08, 0, 0, 0, 0}},
+           {"front a little", {0, 0, .06, 0, 0, 0}},
+           {"back a little", {0, 0, 0, .06, 0, 0}},
+           {"head deep", {0, 0, 0, 0, 0, .6}},
+           {"feet deep", {0, 0, 0, 0, .6, 0}},
+           {"both ends", {0, 0, 0, 0, .3, .3}},
+           {"a slab of lung", {0, .3, 0, 0, .75, 0}},
+           {"a slab of bowel", {0, 0, .25, 0, 0, .75}},
+           {"front and head", {0, 0, .2, 0, 0, .3}},
+           {"back and feet", {0, 0, 0, .2, .3, 0}},
+           {"left and head", {0, .3, 0, 0, 0, .4}},
+           {"right and feet", {.3, 0, 0, 0, .4, 0}},
+           {"front, left and head", {0, .2, .15, 0, 0, .3}},
+           {"back, right and feet", {.2, 0, 0, .15, .3, 0}},
+           {"sides and head", {.25, .25, 0, 0, 0, .3}},
+           {"front, back and feet", {0, 0, .15, .15, .3, 0}},
+           {"front, back and left", {0, .25, .15, .15, 0, 0}},
+           {"four sides", {.12, .12, .12, .12, 0, 0}},
+           {"all but left", {.2, 0, .15, .15, .2, .2}},
+           {"all but right", {0, .2, .15, .15, .2, .2}},
+           {"all but back", {.15, .15, .15, 0, .2, .2}},
+           {"left of the spine", {.55, 0, 0, .1, 0, .2}},
+       })
+    made.push_back(std::move(crop));
   made.push_back({"circle wide", {}, 0.95});
   made.push_back({"circle", {}, 0.85});
   made.push_back({"circle narrow", {}, 0.7});
@@ -63,6 +90,12 @@ std::vector<Crop> crops() {
   made.push_back({"oblique right back", {}, {}, glm::dvec3(-1, 1, 0), 0.55});
   made.push_back({"oblique front", {}, {}, glm::dvec3(0, -1, 0.6), 0.5});
   made.push_back({"oblique right", {}, {}, glm::dvec3(-1, 0, 0.4), 0.6});
+  made.push_back({"circle and head", {0, 0, 0, 0, 0, .4}, 0.8});
+  made.push_back({"circle and front", {0, 0, .2, 0, 0, 0}, 0.9});
+  made.push_back({"oblique left back", {}, {}, glm::dvec3(1, 0.7, -0.3), 0.55});
+  made.push_back({"oblique front, flat", {}, {}, glm::dvec3(0.1, -1, 0.15), 0.6});
+  made.push_back({"oblique head", {}, {}, glm::dvec3(0.4, 0.2, 1), 0.4});
+  made.push_back({"oblique and right", {.25, 0, 0, 0, 0, 0}, {}, glm::dvec3(0.6, -1, 0), 0.6});
   return made;
 }
 

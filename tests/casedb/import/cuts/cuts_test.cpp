@@ -4,15 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "casedb/import/import.h"
 #include "casedb/import/privacy/face.h"
 #include "casedb/import/skin/surface.h"
+#include "sim/base/rng.h"
+#include "sim/volume/analytic.h"
 #include "sim/volume/body/body_mask.h"
 #include "sim/volume/body/field_of_view.h"
 #include "sim/volume/phantom.h"
 #include "tests/casedb/import/cuts/cropped.h"
 #include "tests/casedb/import/cuts/cut_score.h"
+#include "tests/casedb/import/cuts/ways.h"
 #include "tests/casedb/import/head_phantom.h"
 #include "tests/fixtures/shared_data.h"
 
@@ -24,12 +31,58 @@ const volume::Volume& torso() {
   return made;
 }
 
+// The torso drawn at that spacing, without partial volume.
+volume::Volume quick_torso(const volume::Way& way) {
+  volume::AnalyticVolume shapes = volume::phantom_shapes({.spacing_mm = glm::dvec3(way.spacing_mm)});
+  volume::enhance(shapes, way.phase, way.metal);
+  volume::LabelMap labels;
+  volume::Volume made = volume::rasterize(shapes, labels);
+  for (std::size_t at = 0; at < made.hu.size(); ++at)
+    made.hu[at] = static_cast<std::int16_t>(
+        std::max(double{volume::kAirHu},
+                 made.hu[at] + (labels.label[at] == 0 ? 0.5 : 1.0) * way.noise_sd_hu * base::normal_at(7, at)));
+  return made;
+}
+
+// Twelve of the sixty ways; all of them are run by `./run test --long`.
 TEST(CutSkin, OfTheTorsoIsThatOfTheWhole) {
-  const WholePatient whole(torso());
-  for (const volume::Crop& crop :
-       volume::crops({"whole", "left deep", "right", "front deep", "back", "both sides deep", "sides and front",
-                      "left half", "five faces", "circle", "circle and left", "oblique left front"}))
-    expect_true_skin(whole, crop);
+  using volume::TorsoPhase;
+  struct Kind {
+    int spacing_mm;
+    TorsoPhase phase;
+    double noise_sd_hu;
+    bool metal;
+    std::vector<std::string> crops;
+  };
+  const std::vector<Kind> kinds{
+      {2, TorsoPhase::none, 0.0, false, {"left deep", "circle and left", "oblique left front"}},
+      {3, TorsoPhase::arterial, 12.0, true, {"front deep", "sides and front", "circle", "all but left"}},
+      {3, TorsoPhase::portal, 20.0, false, {"left half", "both sides deep", "a slab of lung"}},
+      {5, TorsoPhase::excretory, 6.0, true, {"back, right and feet", "oblique and right"}},
+  };
+  for (const Kind& kind : kinds) {
+    const WholePatient whole(quick_torso({{}, kind.spacing_mm, kind.phase, kind.noise_sd_hu, kind.metal}));
+    for (const volume::Crop& crop : volume::crops(kind.crops)) expect_true_skin(whole, crop);
+  }
+}
+
+TEST(CutSkin, OfSixtyWaysEachCropIsOneAndEverySpacingMeetsEveryPhase) {
+  const std::vector<volume::Way> ways = volume::ways();
+  EXPECT_EQ(ways.size(), 60U);
+  std::set<std::string> names;
+  std::set<std::pair<int, volume::TorsoPhase>> phases;
+  std::set<std::pair<int, double>> noises;
+  std::set<std::pair<volume::TorsoPhase, bool>> metals;
+  for (const volume::Way& way : ways) {
+    names.insert(way.crop.name);
+    phases.emplace(way.spacing_mm, way.phase);
+    noises.emplace(way.spacing_mm, way.noise_sd_hu);
+    metals.emplace(way.phase, way.metal);
+  }
+  EXPECT_EQ(names.size(), 60U);
+  EXPECT_EQ(phases.size(), 16U);
+  EXPECT_EQ(noises.size(), 12U);
+  EXPECT_EQ(metals.size(), 8U);
 }
 
 TEST(CutSkin, OfRealCtIsThatOfTheWhole) {
@@ -87,6 +140,44 @@ TEST(CutSkin, OfAPocketAtACornerIsKept) {
   for (int k = 0; k < 20; ++k)
     for (int j = 0; j < 60; ++j)
       for (int i = 0; i < 90; ++i) ASSERT_EQ(body[made.index(i, j, k)], air(i, j) ? 0 : 1) << i << " " << j;
+}
+
+// Two thighs that a plane shuts in front: the air between them opens towards the feet, and is no gut's. Nor is it
+// where a plane lies obliquely before them. A gut of gas within a thigh that it cuts is none of the room's.
+TEST(CutSkin, OfANookBetweenThighsIsKept) {
+  volume::Volume made = volume::make_volume({120, 50, 24}, {2, 2, 3}, glm::dmat3(1.0), glm::dvec3(0.0));
+  // Joined from slice 20 on, farther apart below.
+  const auto thigh = [](int i, int j, int k) {
+    return std::hypot(std::abs(i - 59.5) - 30.0 - (20 - k) * 0.4, j - 24.0) <= 32.0;
+  };
+  const auto gas = [](int i, int j) { return std::hypot(i - 29.5, j + 3.5) < 12.0; };
+  for (int k = 0; k < 24; ++k)
+    for (int j = 0; j < 50; ++j)
+      for (int i = 0; i < 120; ++i) made.hu[made.index(i, j, k)] = thigh(i, j, k) && !gas(i, j) ? 40 : -1000;
+  const std::vector<std::uint8_t> body = volume::body_mask(made);
+  for (int k = 0; k < 24; ++k)
+    for (int j = 0; j < 50; ++j)
+      for (int i = 0; i < 120; ++i)
+        ASSERT_EQ(body[made.index(i, j, k)], thigh(i, j, k) ? 1 : 0) << i << " " << j << " " << k;
+}
+
+// Gas over a level of fluid, cut obliquely, is as much of a wedge; it reaches no end of the CT that it opens to.
+TEST(CutSkin, OfGasOverFluidThereIsNone) {
+  volume::Volume made = volume::make_volume({90, 60, 40}, {2, 2, 3}, glm::dmat3(1.0), glm::dvec3(0.0));
+  const auto body_at = [](int i, int j) { return std::hypot((i - 44.5) / 40.0, (j - 35.0) / 40.0) < 1.0; };
+  const auto gas = [](int i, int j, int k) {
+    return j < 20 - (i - 44) * 0.4 && std::hypot((i - 44.5) / 20.0, (j - 16.0) / 22.0, (k - 20.0) / 14.0) < 1.0;
+  };
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 90; ++i) made.hu[made.index(i, j, k)] = body_at(i, j) && !gas(i, j, k) ? 40 : -1000;
+  const std::vector<std::uint8_t> body = volume::body_mask(made);
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 90; ++i)
+        if (gas(i, j, k) && body_at(i, j)) {
+          ASSERT_EQ(body[made.index(i, j, k)], 1) << i << " " << j << " " << k;
+        }
 }
 
 TEST(CutSkin, WithinTheBodyThereIsNone) {

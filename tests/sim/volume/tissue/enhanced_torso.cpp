@@ -36,25 +36,27 @@ bool is_bone(const std::string& name) {
 }
 
 // At 1 mm. The last one made is kept: tests ask for one phase after the other.
-const EnhancedTorso& fine_torso(TorsoPhase phase, bool metal) {
+const EnhancedTorso& fine_torso(const TorsoOptions& options) {
   static EnhancedTorso made;
-  static TorsoPhase made_phase = TorsoPhase::none;
-  static bool made_metal = false;
-  if (!made.volume.hu.empty() && made_phase == phase && made_metal == metal) return made;
-  AnalyticVolume shapes = phantom_shapes({.spacing_mm = glm::dvec3(1, 1, 1)});
-  for (Shape& shape : shapes.shapes) shape.hu = hu_of(shape, phase);
-  if (metal) {
-    shapes.shapes.push_back({Cylinder{{-14, 30, -32}, {-14, 70, -32}, 3.0}, 3071.0, "steel"});
-    shapes.shapes.push_back({Sphere{{-40, -30, 30}, 1.5}, 3071.0, "steel"});
-  }
+  static TorsoOptions of;
+  if (!made.volume.hu.empty() && of.phase == options.phase && of.metal == options.metal && of.body == options.body)
+    return made;
+  AnalyticVolume shapes = phantom_shapes({.spacing_mm = glm::dvec3(1, 1, 1), .body = options.body});
+  enhance(shapes, options.phase, options.metal);
   made = {};
   made.volume = rasterize(shapes, made.truth);
-  made_phase = phase;
-  made_metal = metal;
+  of = options;
   return made;
 }
 
 }  // namespace
+
+void enhance(AnalyticVolume& shapes, TorsoPhase phase, bool metal) {
+  for (Shape& shape : shapes.shapes) shape.hu = hu_of(shape, phase);
+  if (!metal) return;
+  shapes.shapes.push_back({Cylinder{{-14, 30, -32}, {-14, 70, -32}, 3.0}, 3071.0, "steel"});
+  shapes.shapes.push_back({Sphere{{-40, -30, 30}, 1.5}, 3071.0, "steel"});
+}
 
 std::string name_of(TorsoPhase phase) {
   switch (phase) {
@@ -85,7 +87,7 @@ ContrastPhase told_as(TorsoPhase phase) {
 }
 
 EnhancedTorso enhanced_torso(const TorsoOptions& options) {
-  const EnhancedTorso& fine = fine_torso(options.phase, options.metal);
+  const EnhancedTorso& fine = fine_torso(options);
   const glm::ivec3 by = options.spacing_mm, n = fine.volume.size_voxels / by;
   const glm::dvec3 origin_mm(fine.volume.lps_from_voxel[3]);
   EnhancedTorso made;
@@ -141,7 +143,7 @@ TorsoScore score(const EnhancedTorso& torso, const Tissue& found) {
       to->bone += found.classes[at] == TissueClass::bone ? 1.0 : 0.0;
     }
   }
-  return {2.0 * both / all, rib.of(), vessel.of(), ducts.of()};
+  return {2.0 * both / all, rib.of(), vessel.of(), ducts.of(), rib.voxels, vessel.voxels};
 }
 
 }  // namespace seldinger::volume

@@ -29,15 +29,19 @@ struct TorsoOptions {
   glm::ivec3 spacing_mm{1};
   double noise_sd_hu = 12.0;
   bool metal = false;  // a pin of 6 mm in a vertebra, a clip of 3 mm at the liver
+  Body body = Body::adult;
 };
+// The torso's shapes in that phase, and with metal.
+void enhance(AnalyticVolume& shapes, TorsoPhase phase, bool metal);
 EnhancedTorso enhanced_torso(const TorsoOptions& options);
 
 // What was found of it.
 struct TorsoScore {
-  double bone_dice = 0.0;       // of shares
-  double rib_as_bone = 0.0;     // of voxels that are mostly rib, by class
-  double vessel_as_bone = 0.0;  // of great vessels and heart, by class
-  double ducts_as_bone = 0.0;   // of urine, by class
+  double bone_dice = 0.0;            // of shares
+  double rib_as_bone = 0.0;          // of voxels that are mostly rib, by class
+  double vessel_as_bone = 0.0;       // of great vessels and heart, by class
+  double ducts_as_bone = 0.0;        // of urine, by class
+  double ribs = 0.0, vessels = 0.0;  // voxels of them in the field: of none the shares are no number
 };
 TorsoScore score(const EnhancedTorso& torso, const Tissue& found);
 
