@@ -25,6 +25,13 @@ std::string whole_mm(double mm) {
 
 }  // namespace
 
+std::string in_hand_words(const Seen& seen, cases::Modality modality) {
+  if (modality == cases::Modality::xray)
+    return seen.moment.state.fluoroscopy.hand_away ? "Your hand is away (H)" : "In the hand: needle";
+  return std::string("In the hand: ") + (seen.held == devices::HeldTool::needle ? "needle" : "probe") +
+         (seen.guided ? ", in the guide (Tab)" : " (Tab)");
+}
+
 std::string fire_words(const cases::Instrument& instrument) {
   if (instrument.kind != cases::InstrumentKind::core) return "“I am there” said";
   return "fired, " + whole_mm(instrument.throw_mm);

@@ -13,6 +13,8 @@ namespace seldinger::app {
 // How long after it a fire flashes at the picture, by the attempt's time (design).
 inline constexpr double kFlashS = 0.7;
 
+// What mouse and keys hold, with the key that takes the other tool where there is one.
+std::string in_hand_words(const Seen& seen, cases::Modality modality);
 // "fired, 22 mm": how far the tip was thrown; of a needle that throws nothing, what was said with the trigger.
 std::string fire_words(const cases::Instrument& instrument);
 // The same as an answer to the trigger.

@@ -160,6 +160,8 @@ void ActsPanel::read_keys(PersonAttempt& attempt, const Seen& seen, bool flipped
     else
       answer(seen, "First decide: proceed (Y) or defer (N).");
   }
+  if (keys.pressed(kSpace) && seen.moment.state.fluoroscopy.hand_away)
+    answer(seen, in_hand_words(seen, attempt.task()->scene.picture.modality) + ".");
   if (keys.pressed(kF9)) finish(attempt, seen, flipped);
 }
 

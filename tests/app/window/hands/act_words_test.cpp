@@ -116,6 +116,17 @@ TEST(ActWords, OfAGuideSayWhyThereIsNone) {
   EXPECT_NE(guide_words(seen, Modality::ultrasound).find("an arm"), std::string::npos);
 }
 
+TEST(ActWords, OfWhatIsInTheHandNameNoProbeWhereThereIsNone) {
+  Seen seen;
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::ultrasound), "In the hand: needle (Tab)");
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::xray), "In the hand: needle");
+  seen.moment.state.fluoroscopy.hand_away = true;
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::xray), "Your hand is away (H)");
+  seen = {};
+  seen.held = devices::HeldTool::probe;
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::ultrasound), "In the hand: probe (Tab)");
+}
+
 TEST(ActWords, OfTheBreathFollowThePatient) {
   cases::PatientBreath breath;
   EXPECT_EQ(breath_words(breath), "");
