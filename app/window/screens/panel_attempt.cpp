@@ -74,6 +74,7 @@ void AttemptPanel::set_up(Trainer& trainer) {
   watch_.begin(scene.picture.modality);
   acts_.begin(*trainer.attempt(), trainer.plan());
   fired_ = leaving_ = false;
+  at_fire_.clear();
 }
 
 void AttemptPanel::keep_picture() {
