@@ -21,7 +21,7 @@ using assessment::StepState;
 enum Mark : std::size_t { kShown, kSaid, kDone, kLeftOut, kSaidOnly, kLate, kWrong, kNotAsked, kMarks };
 
 constexpr std::array<StepMark, kMarks> kStepMarks = {{
-    {"✓", "shown", false, "a deed showed it, in time"},
+    {"✓", "shown", false, "your action showed it, in time"},
     {"✓", "said", true, "said in time; no deed can show it"},
     {"✓", "done", true, "done or said in time, stored before the two were told apart"},
     {"–", "left out", false, "never done"},

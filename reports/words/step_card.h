@@ -29,7 +29,7 @@ std::vector<const StepMark*> step_legend(std::span<const assessment::StepResult>
 std::string step_label(std::string_view id);
 // With what its mark tells: "Sign out (said)".
 std::string step_text(const assessment::StepResult& step);
-// "✓ shown at 12.3 s: a deed showed it, in time"; of one that was not asked for, why.
+// "✓ shown at 12.3 s: your action showed it, in time"; of one that was not asked for, why.
 std::string step_result_text(const assessment::StepResult& step);
 
 // Of one that was done wrongly or too late, what happened then: "a pulse met the hand"; else empty.
