@@ -90,6 +90,14 @@ std::string said_words(const Said& said) {
   }
 }
 
+bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality modality) {
+  return kind == cases::EventKind::note_plan && !(planned_mm > 0.0) && modality != cases::Modality::xray;
+}
+
+std::string missing_depth_words() {
+  return "Not noted: no depth is set. Set how far the needle is to go in, then press F2.";
+}
+
 std::string numb_words(const engine::Moment& moment) {
   CHECK(moment.numbed > 0);
   const cases::SkinPassage& skin = moment.state.needle.skin;

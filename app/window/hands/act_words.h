@@ -30,6 +30,9 @@ struct Said {
   haptics::Introducer introducer{};  // before it was said
 };
 std::string said_words(const Said& said);
+// Where there is a depth to set beside it, a plan without one is not noted; these words say so.
+bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality modality);
+std::string missing_depth_words();
 // Of the newest place that is numb; CHECKs that there is one.
 std::string numb_words(const engine::Moment& moment);
 // Of what was given just now through a needle in tissue.

@@ -89,6 +89,8 @@ void ActsPanel::say(PersonAttempt& attempt, const Seen& seen, bool flipped, Even
     kind = EventKind::stylet_out;
   double length_mm = 0.0;
   if (kind == EventKind::note_plan) length_mm = planned_mm_;
+  if (depth_is_missing(kind, length_mm, attempt.task()->scene.picture.modality))
+    return answer(seen, missing_depth_words());
   if ((kind == EventKind::anaesthetic || kind == EventKind::aspirate) && needle.skin.in_body)
     length_mm = needle.inserted_mm;
   // None is taken up in tissue: the words say so, and nothing is done.

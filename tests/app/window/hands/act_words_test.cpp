@@ -29,6 +29,14 @@ TEST(ActWords, OfWhatIsSaidAreForEverythingThatATraineeSaysInTheRoom) {
   EXPECT_NE(said_words({EventKind::probe_checked, 0.0, true}), said_words({EventKind::probe_checked, 0.0, false}));
 }
 
+TEST(ActWords, APlanWithoutADepthIsNotedOnlyWhereNoneCanBeSet) {
+  EXPECT_TRUE(depth_is_missing(EventKind::note_plan, 0.0, cases::Modality::ultrasound));
+  EXPECT_TRUE(depth_is_missing(EventKind::note_plan, 0.0, cases::Modality::mpr));
+  EXPECT_FALSE(depth_is_missing(EventKind::note_plan, 61.0, cases::Modality::ultrasound));
+  EXPECT_FALSE(depth_is_missing(EventKind::note_plan, 0.0, cases::Modality::xray)) << "its room has no slider";
+  EXPECT_FALSE(depth_is_missing(EventKind::aspirate, 0.0, cases::Modality::ultrasound));
+}
+
 TEST(ActWords, OfACoreNeedlesStyletAreOfItsIntroducer) {
   using haptics::Introducer;
   const auto words = [](EventKind kind, bool needle_in, Introducer before) {
