@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "app/window/screens/panels.h"
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
 #include "app/window/trainer/plan_words.h"
 #include "assessment/grading/debrief.h"
@@ -246,6 +247,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     end_screen();
     return false;
   }
+  const bool at_back = framed();
   if (!trainer.expert_attempt().empty()) {
     ImGui::SameLine();
     if (noted_button("Watch an expert (E)") || keys.pressed('E')) {
@@ -261,10 +263,21 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::EndDisabled();
   }
   ImGui::SameLine();
-  const bool may_begin = ready && all && (trainer.probes().empty() || !trainer.chosen_probe().empty());
+  const bool probe = trainer.probes().empty() || !trainer.chosen_probe().empty();
+  const bool may_begin = ready && all && probe;
   ImGui::BeginDisabled(!may_begin);
   const bool begin = noted_button("Enter the room (Enter)") || (may_begin && keys.pressed(kEnter));
+  if (may_begin) ImGui::SetItemDefaultFocus();
+  if (at_back && may_begin && !could_begin_) focus_here();  // Enter would lead out
+  could_begin_ = may_begin;
   ImGui::EndDisabled();
+  if (ready && !may_begin) {
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    const char* words = !all ? "Complete the sign-in first." : "Choose a probe first.";
+    quiet(words);
+    note_item(words);
+  }
   if (!ready) {
     ImGui::SameLine();
     ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {scaled(220.0F), 0.0F}, "preparing the case …");
