@@ -17,7 +17,7 @@ struct StepMark {
   const char* sign;     // "✓"
   const char* words;    // "said"
   bool told;            // in words behind the step, too: its sign has another meaning alone
-  const char* meaning;  // "said in time; no deed can show it"
+  const char* meaning;  // "said in time; no action can show it"
 };
 
 const StepMark& step_mark(const assessment::StepResult& step);
