@@ -252,7 +252,12 @@ void MonitorPanel::draw_ultrasound(session::Monitor& monitor, bool frozen, bool 
   // Cine, as long as the picture is frozen.
   ImGui::BeginDisabled(!frozen || shown_.cine_pictures < 2);
   int back = -shown_.cine_back;
-  ImGui::SetNextItemWidth(0.17F * wide);
+  // It gives way to what follows in its row.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float rest = ImGui::CalcTextSize("Calipers (R)").x + ImGui::CalcTextSize("Save (T)").x +
+                     ImGui::CalcTextSize(kind_.probe.c_str()).x + 4.0F * style.FramePadding.x +
+                     4.0F * style.ItemSpacing.x;
+  ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - rest, 0.11F * wide, 0.17F * wide));
   if (ImGui::SliderInt("##cine", &back, -std::max(1, shown_.cine_pictures - 1), 0, "cine %d"))
     monitor.set_console([back](imaging::Console& console) { console.scroll(-back); });
   ImGui::EndDisabled();
