@@ -30,7 +30,7 @@ DemoCase drill(int number, const char* title, const char* task, DemoSource sourc
 DemoCase find_the_plane() {
   DemoCase made = drill(
       1, "Drill 1: find the plane",
-      "Find the ball of water, turn the probe until the needle's way and the ball lie in one picture, then hit it.",
+      "Find the ball of water, turn the probe until the needle path and the ball lie in one picture, then hit it.",
       DemoSource::gel_plane, volume::GelBlock::find_the_plane, -15.0, 29.0);
   made.setting.rule = rule_of(
       {"hit >= 1", "advance_joint_visible_last_20_mm >= 0.5", "plane_angle_mean <= 8", "skin_punctures <= 1"}, {});

@@ -228,27 +228,27 @@ constexpr MetricInfo kStructuresMetrics[] = {
      "At the endpoint, along the needle from the tip in the lumen to be reached to its far wall. Null: "
      "not_in_target_structure.",
      kWall, &back_wall_dist, kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
-    {"must_cross_length", 1, "mm", "Way through must-cross", Group::safety, Direction::higher_is_better,
+    {"must_cross_length", 1, "mm", "Path through must-cross structures", Group::safety, Direction::higher_is_better,
      kMustCross | kEndpoint | kSkin,
      "At the endpoint, length of the needle from the skin to the tip inside structures through which the right "
      "path "
      "leads (renal parenchyma before a calyx). Null: not_in_tissue_at_the_end.",
      "puncture through the parenchyma: Sampaio et al., J. Urol. 148 (1992) 1769", &must_cross_length,
      kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
-    {"nogo_length", 2, "mm", "Way through no-go", Group::safety, Direction::lower_is_better, kNoGo,
+    {"nogo_length", 2, "mm", "Path through no-go structures", Group::safety, Direction::lower_is_better, kNoGo,
      "Length of the tip's path, to and fro and a core needle's throw included, inside structures to stay out of, "
      "counted from the entry of each visit that nogo_contacts counts; shorter ones are 0. Where two overlap it "
      "counts "
      "once. Of voxels the surface is known to nogo_uncertainty.",
      kClinical, &nogo_length, kMedianRatio, kOfTheTrace,
      "1: every length inside counted, a graze of under 0.5 mm, too."},
-    {"nogo_length_critical", 2, "mm", "Way through critical", Group::safety, Direction::lower_is_better,
+    {"nogo_length_critical", 2, "mm", "Path through critical structures", Group::safety, Direction::lower_is_better,
      kNoGoCritical, "As nogo_length, of structures that must never be touched.", kClinical, &nogo_length_critical,
      kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
-    {"nogo_length_major", 2, "mm", "Way through major", Group::safety, Direction::lower_is_better, kNoGoMajor,
-     "As nogo_length, of structures whose injury is a complication.", kClinical, &nogo_length_major, kMedianRatio,
-     kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
-    {"nogo_length_advisory", 2, "mm", "Way through advisory", Group::safety, Direction::lower_is_better,
+    {"nogo_length_major", 2, "mm", "Path through major structures", Group::safety, Direction::lower_is_better,
+     kNoGoMajor, "As nogo_length, of structures whose injury is a complication.", kClinical, &nogo_length_major,
+     kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
+    {"nogo_length_advisory", 2, "mm", "Path through advisory structures", Group::safety, Direction::lower_is_better,
      kNoGoAdvisory, "As nogo_length, of structures that are better avoided.", kClinical, &nogo_length_advisory,
      kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
     {"nogo_time", 2, "s", "Time in no-go", Group::safety, Direction::lower_is_better, kNoGo | kMotion,

@@ -97,7 +97,7 @@ void add_timeline(Html& html, const ReplaySheet& sheet) {
                     [](const LaneMark& mark) { return !mark.step_id.empty(); }))
       html.raw(
           "<p class=\"soft\"><span class=\"dot step\">done</span> <span class=\"dot\">too late</span> <span "
-          "class=\"dot violated\">wrong</span> (said): no deed can show it. A name opens what the step is.</p>");
+          "class=\"dot violated\">wrong</span> (said): no action can show it. A name opens what the step is.</p>");
     html.raw("<ol class=\"events\">\n");
     for (const LaneMark& mark : lane.marks) {
       const std::string until = mark.t1_s > mark.t0_s ? "–" + number_text(mark.t1_s, 1) : "";

@@ -21,11 +21,11 @@ using assessment::StepState;
 enum Mark : std::size_t { kShown, kSaid, kDone, kLeftOut, kSaidOnly, kLate, kWrong, kNotAsked, kMarks };
 
 constexpr std::array<StepMark, kMarks> kStepMarks = {{
-    {"✓", "shown", false, "a deed showed it, in time"},
-    {"✓", "said", true, "said in time; no deed can show it"},
+    {"✓", "shown", false, "your action showed it, in time"},
+    {"✓", "said", true, "said in time; no action can show it"},
     {"✓", "done", true, "done or said in time, stored before the two were told apart"},
     {"–", "left out", false, "never done"},
-    {"–", "said, not shown", true, "said only, where a deed would show it: as left out"},
+    {"–", "said, not shown", true, "said only, where an action would show it: as left out"},
     {"–", "too late", true, "done after its time was over: as left out"},
     {"✗", "wrong", false, "done wrongly, whatever else was done"},
     {"", "not asked for", false, "the guidance, the needle, the case or the recording lacks what it needs"},
@@ -50,8 +50,9 @@ std::string words_of(Evidence evidence) {
 }
 
 std::string definition_of(const StepInfo& step) {
-  if (!step.shown()) return "It counts as said: no deed can show it, and the trainee is taken at his or her word.";
-  std::string text = "It is shown by a deed: by what hands, pictures and patient tell.";
+  if (!step.shown())
+    return "It counts as said: no action can show it, and the trainee is taken at his or her word.";
+  std::string text = "It is shown by an action: by what hands, pictures and patient tell.";
   if (step.said != Evidence::none) text += " To say it (" + words_of(step.said) + ") is told and does not count.";
   return text;
 }

@@ -17,7 +17,7 @@ struct StepMark {
   const char* sign;     // "✓"
   const char* words;    // "said"
   bool told;            // in words behind the step, too: its sign has another meaning alone
-  const char* meaning;  // "said in time; no deed can show it"
+  const char* meaning;  // "said in time; no action can show it"
 };
 
 const StepMark& step_mark(const assessment::StepResult& step);
@@ -29,7 +29,7 @@ std::vector<const StepMark*> step_legend(std::span<const assessment::StepResult>
 std::string step_label(std::string_view id);
 // With what its mark tells: "Sign out (said)".
 std::string step_text(const assessment::StepResult& step);
-// "✓ shown at 12.3 s: a deed showed it, in time"; of one that was not asked for, why.
+// "✓ shown at 12.3 s: your action showed it, in time"; of one that was not asked for, why.
 std::string step_result_text(const assessment::StepResult& step);
 
 // Of one that was done wrongly or too late, what happened then: "a pulse met the hand"; else empty.

@@ -19,7 +19,10 @@ class ScreenPicture {
   // Row-major, the upper row first; width · height pixels (CHECKed). Of the same size as before: no new memory.
   void show(int width_px, int height_px, std::span<const unsigned char> bytes);
 
-  int width_px() const noexcept { return width_px_; }  // 0: nothing was shown yet
+  // As before anything was shown.
+  void clear() noexcept { width_px_ = height_px_ = 0; }
+
+  int width_px() const noexcept { return width_px_; }  // 0: nothing is shown
   int height_px() const noexcept { return height_px_; }
   unsigned int name() const noexcept { return name_; }  // GL's
 

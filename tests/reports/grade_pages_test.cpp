@@ -73,12 +73,12 @@ TEST(GradeOnPage, EachCriterionSaysWhatWasAskedAndWhatCame) {
   const std::string html = attempt_page(kTrainee, view, nullptr);
   const std::size_t at = html.find("<table class=\"list criteria\">");
   const std::string table = html.substr(at, html.find("</table>", at) - at);
-  EXPECT_THAT(table, HasSubstr("<summary>Way through critical</summary>"));
+  EXPECT_THAT(table, HasSubstr("<summary>Path through critical structures</summary>"));
   EXPECT_THAT(table, HasSubstr("</details> <span class=\"mark critical\">critical</span>"));
   EXPECT_THAT(table, HasSubstr(">3.2 mm<"));
   EXPECT_THAT(table, HasSubstr(">none<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Missed</span>"));
-  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">the trigger was never pulled</span>"));
+  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">the needle was never fired or declared to be there</span>"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Not met</span>"));
   EXPECT_THAT(table, HasSubstr(">Yes<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"yes\">Met</span>"));
@@ -93,7 +93,7 @@ TEST(GradeOnPage, EachSentenceAndCriterionOpensWhatItMeasures) {
   EXPECT_THAT(html, HasSubstr("Hit the target. <details class=\"metric\"><summary>Target hit</summary>"));
   const std::size_t at = html.find("<table class=\"list criteria\">");
   const std::string table = html.substr(at, html.find("</table>", at) - at);
-  for (const char* label : {"Way through critical", "Core in target", "Target hit"})
+  for (const char* label : {"Path through critical structures", "Core in target", "Target hit"})
     EXPECT_THAT(table, HasSubstr("<th scope=\"row\"><details class=\"metric\"><summary>" + std::string(label)));
   EXPECT_THAT(table, HasSubstr("(hit); this value was measured by version 7"));
 }

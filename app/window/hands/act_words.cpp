@@ -25,6 +25,13 @@ std::string whole_mm(double mm) {
 
 }  // namespace
 
+std::string in_hand_words(const Seen& seen, cases::Modality modality) {
+  if (modality == cases::Modality::xray)
+    return seen.moment.state.fluoroscopy.hand_away ? "Your hand is away (H)" : "In the hand: needle";
+  return std::string("In the hand: ") + (seen.held == devices::HeldTool::needle ? "needle" : "probe") +
+         (seen.guided ? ", in the guide (Tab)" : " (Tab)");
+}
+
 std::string fire_words(const cases::Instrument& instrument) {
   if (instrument.kind != cases::InstrumentKind::core) return "“I am there” said";
   return "fired, " + whole_mm(instrument.throw_mm);
@@ -81,6 +88,14 @@ std::string said_words(const Said& said) {
     default:
       return {};
   }
+}
+
+bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality modality) {
+  return kind == cases::EventKind::note_plan && !(planned_mm > 0.0) && modality != cases::Modality::xray;
+}
+
+std::string missing_depth_words() {
+  return "Not noted: no depth is set. Set how far the needle is to go in, then press F2.";
 }
 
 std::string numb_words(const engine::Moment& moment) {

@@ -13,6 +13,8 @@ namespace seldinger::app {
 // How long after it a fire flashes at the picture, by the attempt's time (design).
 inline constexpr double kFlashS = 0.7;
 
+// What mouse and keys hold, with the key that takes the other tool where there is one.
+std::string in_hand_words(const Seen& seen, cases::Modality modality);
 // "fired, 22 mm": how far the tip was thrown; of a needle that throws nothing, what was said with the trigger.
 std::string fire_words(const cases::Instrument& instrument);
 // The same as an answer to the trigger.
@@ -28,6 +30,9 @@ struct Said {
   haptics::Introducer introducer{};  // before it was said
 };
 std::string said_words(const Said& said);
+// Where there is a depth to set beside it, a plan without one is not noted; these words say so.
+bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality modality);
+std::string missing_depth_words();
 // Of the newest place that is numb; CHECKs that there is one.
 std::string numb_words(const engine::Moment& moment);
 // Of what was given just now through a needle in tissue.

@@ -1,6 +1,7 @@
 #include "app/window/hands/desk_hands.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/base/check.h"
 #include "sim/haptics/arm_model.h"
@@ -118,11 +119,27 @@ void DeskHands::advance(const devices::HandIntent& intent, const cases::State& s
   devices::AxialForces resisting = forces;
   if (led_ && !mouse_leads(Tool::needle)) resisting.needle_n = 0.0;
   if (led_ && !mouse_leads(Tool::probe)) resisting.probe_n = 0.0;
-  mouse_.advance(intent, resisting, elapsed_s);
+  const bool was_away = std::exchange(
+      away_, scene_.picture.modality == cases::Modality::xray && inputs.fluoroscope.hand_away && state.tick > 0);
+  if (!desk_) braced_.see(state);
+  if (away_) {
+    devices::HandIntent buttons;
+    buttons.freezes = intent.freezes;
+    buttons.guides = intent.guides;
+    mouse_.let_go();
+    mouse_.advance(buttons, resisting, elapsed_s);
+  } else {
+    // Let go of, the needle did not go with a patient who breathes: it is taken up where it is.
+    if (was_away && !desk_ && scene_.breathing)
+      mouse_.take_over({braced_.put_back(last_.needle, mouse_.inserted_mm()), mouse_.probe()});
+    mouse_.advance(intent, resisting, elapsed_s);
+  }
   mouse_.say(inputs);
   lead(inputs);
-  if (!desk_) {  // an arm's hand goes with the patient by itself
-    braced_.see(state);
+  if (!desk_ && away_) {
+    inputs.needle = last_.needle;
+    inputs.probe = last_.probe;
+  } else if (!desk_) {  // an arm's hand goes with the patient by itself
     inputs.needle = braced_.carried(inputs.needle, mouse_.inserted_mm());
     inputs.probe = braced_.carried(inputs.probe, 0.0);
   } else {

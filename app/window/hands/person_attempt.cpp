@@ -96,8 +96,8 @@ void PersonAttempt::take_up_tools(bool left_handed) {
                                                         scene.skin_index.normal(near.triangle), near.triangle);
   devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
                                                   scene.approach == cases::Approach::in_plane, left_handed);
-  settings.has_guide = session::guidance_kind(scene.picture.modality).probe_guides;  // its guide is on the probe
-  if (!settings.has_guide) start.probe = plan.probe;                                 // laid aside
+  settings.has_probe = settings.has_guide = session::guidance_kind(scene.picture.modality).probe_guides;
+  if (!settings.has_probe) start.probe = plan.probe;                                 // laid aside
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<session::Monitor>(task_->scene, 0, wanted_.by);
@@ -166,8 +166,8 @@ cases::Inputs PersonAttempt::hands(const cases::State& state, const cases::Frame
     hand_to_force_s_ = session::clock_s() - told_s_;
   }
   cases::Inputs inputs;
-  hands_->advance(even_.advance(base::kTickS), state, forces_, base::kTickS, inputs);
   inputs.fluoroscope = fluoroscope_;
+  hands_->advance(even_.advance(base::kTickS), state, forces_, base::kTickS, inputs);
   inputs.console = console_;
   const std::uint64_t heard = heard_count_.load(std::memory_order_relaxed);
   if (said_count_.load(std::memory_order_acquire) != heard) {

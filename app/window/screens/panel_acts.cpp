@@ -89,6 +89,8 @@ void ActsPanel::say(PersonAttempt& attempt, const Seen& seen, bool flipped, Even
     kind = EventKind::stylet_out;
   double length_mm = 0.0;
   if (kind == EventKind::note_plan) length_mm = planned_mm_;
+  if (depth_is_missing(kind, length_mm, attempt.task()->scene.picture.modality))
+    return answer(seen, missing_depth_words());
   if ((kind == EventKind::anaesthetic || kind == EventKind::aspirate) && needle.skin.in_body)
     length_mm = needle.inserted_mm;
   // None is taken up in tissue: the words say so, and nothing is done.
@@ -160,6 +162,8 @@ void ActsPanel::read_keys(PersonAttempt& attempt, const Seen& seen, bool flipped
     else
       answer(seen, "First decide: proceed (Y) or defer (N).");
   }
+  if (keys.pressed(kSpace) && seen.moment.state.fluoroscopy.hand_away)
+    answer(seen, in_hand_words(seen, attempt.task()->scene.picture.modality) + ".");
   if (keys.pressed(kF9)) finish(attempt, seen, flipped);
 }
 

@@ -74,6 +74,7 @@ void AttemptPanel::set_up(Trainer& trainer) {
   watch_.begin(scene.picture.modality);
   acts_.begin(*trainer.attempt(), trainer.plan());
   fired_ = leaving_ = false;
+  at_fire_.clear();
 }
 
 void AttemptPanel::keep_picture() {
@@ -245,10 +246,11 @@ void AttemptPanel::draw_depth(const cases::Instrument& instrument) {
 void AttemptPanel::draw_hands(const session::Task& task) {
   if (seen_.arms.used) draw_arms();
   const engine::Moment& moment = seen_.moment;
-  const bool needle = seen_.held == devices::HeldTool::needle;
   // An arm's tool is in the hand at the arm.
   if (seen_.by_mouse || by_led_arms_) {
-    ImGui::Text("In the hand: %s%s (Tab)", needle ? "needle" : "probe", seen_.guided ? ", in the guide" : "");
+    const std::string words = in_hand_words(seen_, task.scene.picture.modality);
+    ImGui::TextUnformatted(words.c_str());
+    note_item(words.c_str());
   }
   draw_depth(task.scene.instrument);
   if (moment.force) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "app/window/screens/panels.h"
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
 #include "app/window/trainer/plan_words.h"
 #include "assessment/grading/debrief.h"
@@ -42,31 +43,37 @@ void fact(const char* what, const std::string& value) {
 // What the hands do, for who has not done it before.
 void draw_hands(const casedb::CaseRow& row) {
   struct Line {
-    const char *key, *words;
+    const char *key, *words, *without_probe;  // empty: the probe's alone
   };
+  constexpr const char *kFiner = "makes everything ten times finer",
+                       *kFires = "fires; an access needle is declared to be there",
+                       *kViews = "views of the room; with Alt the mouse turns the view",
+                       *kSwap = "the room in the picture's place; the console folded",
+                       *kPause = "pause; begin again";
   constexpr Line kLines[] = {
-      {"Tab", "takes the other tool: needle or probe"},
-      {"left drag", "moves it; the probe follows the skin"},
-      {"right drag", "turns the needle; tilts and rocks the probe"},
-      {"middle drag", "rotates the probe"},
-      {"wheel", "pushes the needle on and draws it back; presses the probe on"},
-      {"Shift", "makes everything ten times finer"},
-      {"G", "puts the needle into the probe's guide"},
-      {"Space", "fires; an access needle is declared to be there"},
-      {"1 – 8", "views of the room; with Alt the mouse turns the view"},
-      {"Enter, Home", "the room in the picture's place; the console folded"},
-      {"Esc, F5", "pause; begin again"},
+      {"Tab", "takes the other tool: needle or probe", ""},
+      {"left drag", "moves it; the probe follows the skin", "moves the needle"},
+      {"right drag", "turns the needle; tilts and rocks the probe", "turns the needle"},
+      {"middle drag", "rotates the probe", ""},
+      {"wheel", "pushes the needle on and draws it back; presses the probe on",
+       "pushes the needle on and draws it back"},
+      {"Shift", kFiner, kFiner},
+      {"G", "puts the needle into the probe's guide", ""},
+      {"P", "", "the pedal; arrows turn the C-arm, H takes the hand out of the beam"},
+      {"Space", kFires, kFires},
+      {"1 – 8", kViews, kViews},
+      {"Enter, Home", kSwap, kSwap},
+      {"Esc, F5", kPause, kPause},
   };
-  constexpr Line kBeam = {"P", "the pedal; arrows turn the C-arm, H takes the hand out of the beam"};
   heading("Your hands");
-  const auto line = [](const Line& one) {
+  const bool probe = row.modality != cases::Modality::xray;
+  for (const Line& one : kLines) {
+    const char* words = probe ? one.words : one.without_probe;
+    if (*words == '\0') continue;
     ImGui::TextColored({0.86F, 0.80F, 0.58F, 1.0F}, "%s", one.key);
     ImGui::SameLine(7.0F * ImGui::GetFontSize());
-    ImGui::TextWrapped("%s", one.words);
-  };
-  const bool xray = row.modality == cases::Modality::xray;
-  for (const Line& one : kLines) line(one);
-  if (xray) line(kBeam);
+    ImGui::TextWrapped("%s", words);
+  }
 }
 
 // Of whole pieces: what came after the last of them is lost.
@@ -240,6 +247,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     end_screen();
     return false;
   }
+  const bool at_back = framed();
   if (!trainer.expert_attempt().empty()) {
     ImGui::SameLine();
     if (noted_button("Watch an expert (E)") || keys.pressed('E')) {
@@ -255,10 +263,21 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::EndDisabled();
   }
   ImGui::SameLine();
-  const bool may_begin = ready && all && (trainer.probes().empty() || !trainer.chosen_probe().empty());
+  const bool probe = trainer.probes().empty() || !trainer.chosen_probe().empty();
+  const bool may_begin = ready && all && probe;
   ImGui::BeginDisabled(!may_begin);
   const bool begin = noted_button("Enter the room (Enter)") || (may_begin && keys.pressed(kEnter));
+  if (may_begin) ImGui::SetItemDefaultFocus();
+  if (at_back && may_begin && !could_begin_) focus_here();  // Enter would lead out
+  could_begin_ = may_begin;
   ImGui::EndDisabled();
+  if (ready && !may_begin) {
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    const char* words = !all ? "Complete the sign-in first." : "Choose a probe first.";
+    quiet(words);
+    note_item(words);
+  }
   if (!ready) {
     ImGui::SameLine();
     ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {scaled(220.0F), 0.0F}, "preparing the case …");

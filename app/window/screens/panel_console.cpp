@@ -57,9 +57,12 @@ void tip(const char* words) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", words);
 }
 
-// Whether a console so wide has its knobs in half as many rows.
+// Whether a console so wide has its knobs in half as many rows: below that numbers are cut, or lie under handles.
 bool in_two_rows(float width) {
   return width >= 52.0F * ImGui::GetFontSize();
+}
+bool in_one_row(float width) {
+  return width >= 68.0F * ImGui::GetFontSize();
 }
 
 }  // namespace
@@ -72,7 +75,7 @@ float MonitorPanel::console_height(float width, const HandsTold* told) const {
     case cases::Modality::mpr:
       return row;
     case cases::Modality::xray:
-      return ((in_two_rows(width) ? 1.0F : 2.0F) + (asked_of(told).automatic_exposure ? 0.0F : 1.0F)) * row;
+      return ((in_one_row(width) ? 1.0F : 2.0F) + (asked_of(told).automatic_exposure ? 0.0F : 1.0F)) * row;
   }
   return 0.0F;
 }
@@ -249,7 +252,12 @@ void MonitorPanel::draw_ultrasound(session::Monitor& monitor, bool frozen, bool 
   // Cine, as long as the picture is frozen.
   ImGui::BeginDisabled(!frozen || shown_.cine_pictures < 2);
   int back = -shown_.cine_back;
-  ImGui::SetNextItemWidth(0.17F * wide);
+  // It gives way to what follows in its row.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float rest = ImGui::CalcTextSize("Calipers (R)").x + ImGui::CalcTextSize("Save (T)").x +
+                     ImGui::CalcTextSize(kind_.probe.c_str()).x + 4.0F * style.FramePadding.x +
+                     4.0F * style.ItemSpacing.x;
+  ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - rest, 0.11F * wide, 0.17F * wide));
   if (ImGui::SliderInt("##cine", &back, -std::max(1, shown_.cine_pictures - 1), 0, "cine %d"))
     monitor.set_console([back](imaging::Console& console) { console.scroll(-back); });
   ImGui::EndDisabled();
@@ -325,7 +333,7 @@ void MonitorPanel::expose_automatically(bool automatic, cases::FluoroscopeInputs
 
 void MonitorPanel::draw_fluoroscope(session::Monitor& monitor, cases::FluoroscopeInputs& asked) {
   const float all = ImGui::GetContentRegionAvail().x;
-  const bool one_row = in_two_rows(all);
+  const bool one_row = in_one_row(all);
   const float wide = one_row ? 0.48F * all : all;
   // Pedal, hand and automatic exposure.
   ImGui::Button("Pedal (P)");

@@ -358,7 +358,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   }
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  quiet("Click on a line or a step, or press Down, for what it means and how it is told.");
+  quiet("Click on a line or a step, or press Down, for what it means and how it is measured.");
   const float high = ImGui::GetContentRegionAvail().y - buttons_px_;
   const float wide = ImGui::GetContentRegionAvail().x;
   begin_fields("criteria", 0.60F * wide - 8.0F, high);

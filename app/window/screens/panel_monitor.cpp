@@ -112,8 +112,9 @@ void MonitorPanel::draw_marks(float left, float top, float zoom) {
     draw->AddLine({ruler, y}, {ruler + (is_long ? kLongPx : kShortPx), y}, kMonitorWords);
     if (!is_long) continue;
     const std::string number = cm == 0 ? "cm" : std::to_string(cm);
-    draw->AddText({ruler + kLongPx + 2.0F, y - half}, kMonitorWords, number.c_str());
-    note_part(("depth " + number).c_str(), ruler, y - half, scaled(kRulerPx) - kFocusPx, 2.0F * half);
+    const float words_y = std::max(y - half, top);  // a straight face stands at the picture's edge
+    draw->AddText({ruler + kLongPx + 2.0F, words_y}, kMonitorWords, number.c_str());
+    note_part(("depth " + number).c_str(), ruler, words_y, scaled(kRulerPx) - kFocusPx, 2.0F * half);
   }
   if (kind_.modality != cases::Modality::ultrasound) return;
   if (shown_.console.focus_mm > 0.0) {

@@ -134,7 +134,7 @@ std::optional<glm::dvec3> PlanningRoom::draw(const std::shared_ptr<const session
       draw_way(draw, {corner.x + static_cast<float>(entry->x), corner.y + static_cast<float>(entry->y)},
                {corner.x + static_cast<float>(tip->x), corner.y + static_cast<float>(tip->y)}, kOwnColour);
   }
-  shadowed(draw, {corner.x + 6.0F, corner.y + 2.0F}, "3-D: drag turns, wheel nears, click: entry");
+  shadowed(draw, {corner.x + 6.0F, corner.y + 2.0F}, "3-D: drag turns, wheel zooms, click: entry");
   draw->PopClipRect();
   return clicked;
 }
@@ -365,11 +365,20 @@ void PlanningPanel::draw_large(Trainer& trainer, const Keys& keys,
   };
   choice("Entry (1)", End::entry);
   choice("Tip (2)", End::tip);
+  const bool proposed = trainer.proposes_path();
+  ImGui::BeginDisabled(!proposed);
   if (noted_button("As proposed (3)")) trainer.plan_as_proposed();
+  ImGui::EndDisabled();
   ImGui::SameLine();
   if (noted_button("No plan (Backspace)")) trainer.drop_plan();
   ImGui::SameLine();
   if (noted_button("Back to the briefing (P)")) open_ = false;
+  if (!proposed) {
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    quiet("This case proposes no path.");
+    note_item("This case proposes no path");
+  }
   quiet(
       "Click or drag: entry or tip · arrows, Page Up, Page Down: by 1 mm · wheel: slices, Shift: by 5 · "
       "right click: planes meet there");

@@ -90,6 +90,7 @@ class BriefingPanel {
   std::string case_id_;
   std::array<bool, 5> checked_{};
   bool resume_ = false;
+  bool could_begin_ = false;  // when it was drawn last
 };
 
 // Pieces that several screens have.

@@ -71,6 +71,13 @@ void header_row() {
   ImGui::PopItemFlag();
 }
 
+void focus_here() {
+  if (!way().framed) return;
+  ImGuiContext& g = *ImGui::GetCurrentContext();
+  ImGui::SetFocusID(g.LastItemData.ID, g.CurrentWindow);
+  g.NavDisableHighlight = false;
+}
+
 bool framed() {
   const ImGuiContext& g = *ImGui::GetCurrentContext();
   return way().framed && g.NavId != 0 && g.NavId == g.LastItemData.ID;

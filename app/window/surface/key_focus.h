@@ -20,6 +20,8 @@ bool walking();
 void begin_way();
 void end_way();
 void header_row();  // of a table: nothing to stop at
+// The keyboard goes on from the item just drawn, where keys walk.
+void focus_here();
 // Of the item just drawn: whether it is framed. A picture that is keeps arrows, Enter and Space for itself.
 bool framed();
 bool keep_keys();

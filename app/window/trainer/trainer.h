@@ -142,7 +142,8 @@ class Trainer {
   // where entry and tip would be one.
   void plan_entry(const glm::dvec3& place_lps_mm);
   void plan_tip(const glm::dvec3& place_lps_mm);
-  void plan_as_proposed();  // the case's planned way, up to where its needle is fired
+  bool proposes_path() const;  // of what may be planned now
+  void plan_as_proposed();     // the case's planned way, up to where its needle is fired
   void drop_plan() noexcept { plan_.reset(); }
 
   // The probes among which the trainee chooses, once the case is prepared; empty: there is no choice.

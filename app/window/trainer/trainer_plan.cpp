@@ -47,6 +47,11 @@ void Trainer::plan_tip(const glm::dvec3& place_lps_mm) {
   put_plan({entry, place_lps_mm});
 }
 
+bool Trainer::proposes_path() const {
+  const session::Task* task = planned_task();
+  return task != nullptr && task->scene.planned_entry_lps_mm && !task->scene.lesions.empty();
+}
+
 void Trainer::plan_as_proposed() {
   const session::Task* task = planned_task();
   if (task == nullptr) return;

@@ -113,7 +113,7 @@ void Hands::press_buttons(const HandIntent& intent) noexcept {
   fire_ = intent.fire;
   keep_tilt_ = intent.keep_tilt;
   if (intent.freezes % 2 != 0) frozen_ = !frozen_;
-  if (intent.swaps % 2 != 0) {
+  if (settings_.has_probe && intent.swaps % 2 != 0) {
     held_ = held_ == HeldTool::needle ? HeldTool::probe : HeldTool::needle;
     pending_slide_mm_ = pending_turn_rad_ = glm::dvec3(0.0);
     pending_advance_mm_ = 0.0;
@@ -262,6 +262,12 @@ void Hands::set_guide(const ProbeGuide& guide) noexcept {
 void Hands::set_guide(const LineGuide& guide) noexcept {
   settings_.line = guide;
   guided_ = in_guide_ = false;
+}
+
+void Hands::let_go() noexcept {
+  returning_ = false;
+  pending_slide_mm_ = pending_turn_rad_ = glm::dvec3(0.0);
+  pending_advance_mm_ = 0.0;
 }
 
 void Hands::take_over(const HandsStart& at) noexcept {

@@ -56,6 +56,7 @@ struct LineGuide {
 struct HandsSettings {
   double needle_length_mm = 200.0;
   bool has_guide = true;
+  bool has_probe = true;  // else there is nothing to swap the needle for
   std::optional<LineGuide> line{};  // takes the place of `probe_guide`
   ProbeGuide probe_guide{};
 };
@@ -97,6 +98,8 @@ class Hands {
   // A guide that is on lets go.
   void set_guide(const ProbeGuide& guide) noexcept;
   void set_guide(const LineGuide& guide) noexcept;
+  // What is still wanted of the tools is lost, and they stay where they are.
+  void let_go() noexcept;
   // From here on as if the hands had been there: poses that another device left.
   void take_over(const HandsStart& at) noexcept;
 

@@ -26,7 +26,7 @@ TEST(StepCardTest, EveryStepTellsAllThereIsToAskInWords) {
   for (const assessment::StepInfo& info : assessment::procedure_steps()) {
     const Card card = step_card(info.id, assessment::kStepsVersion);
     EXPECT_EQ(card.label, info.words);
-    EXPECT_NE(card.definition.find(info.shown() ? "shown by a deed" : "counts as said"), std::string::npos)
+    EXPECT_NE(card.definition.find(info.shown() ? "shown by an action" : "counts as said"), std::string::npos)
         << info.id;
     EXPECT_FALSE(std::regex_search(card.definition, code)) << card.definition;
     for (const char* name : {"Needs", "Done when", "In time until", "Wrong when", "Counts", "Version", "Source"}) {
@@ -94,7 +94,7 @@ TEST(StepMarkTest, EveryResultHasItsOwnAndTheLegendHasThemAll) {
   const StepResult not_asked = result(StepState::not_asked);
   EXPECT_TRUE(step_legend({&not_asked, 1}).empty());
   EXPECT_STREQ(step_mark(result(StepState::skipped, 9.0, StepHow::said)).words, "too late") << "it was done";
-  EXPECT_EQ(step_result_text(results[1]), "✓ said at 1.0 s: said in time; no deed can show it");
+  EXPECT_EQ(step_result_text(results[1]), "✓ said at 1.0 s: said in time; no action can show it");
 }
 
 }  // namespace

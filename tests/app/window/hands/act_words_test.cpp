@@ -29,6 +29,14 @@ TEST(ActWords, OfWhatIsSaidAreForEverythingThatATraineeSaysInTheRoom) {
   EXPECT_NE(said_words({EventKind::probe_checked, 0.0, true}), said_words({EventKind::probe_checked, 0.0, false}));
 }
 
+TEST(ActWords, APlanWithoutADepthIsNotedOnlyWhereNoneCanBeSet) {
+  EXPECT_TRUE(depth_is_missing(EventKind::note_plan, 0.0, cases::Modality::ultrasound));
+  EXPECT_TRUE(depth_is_missing(EventKind::note_plan, 0.0, cases::Modality::mpr));
+  EXPECT_FALSE(depth_is_missing(EventKind::note_plan, 61.0, cases::Modality::ultrasound));
+  EXPECT_FALSE(depth_is_missing(EventKind::note_plan, 0.0, cases::Modality::xray)) << "its room has no slider";
+  EXPECT_FALSE(depth_is_missing(EventKind::aspirate, 0.0, cases::Modality::ultrasound));
+}
+
 TEST(ActWords, OfACoreNeedlesStyletAreOfItsIntroducer) {
   using haptics::Introducer;
   const auto words = [](EventKind kind, bool needle_in, Introducer before) {
@@ -114,6 +122,17 @@ TEST(ActWords, OfAGuideSayWhyThereIsNone) {
   EXPECT_TRUE(on != off && on != in && in != off);
   seen.needle_by_mouse = false;
   EXPECT_NE(guide_words(seen, Modality::ultrasound).find("an arm"), std::string::npos);
+}
+
+TEST(ActWords, OfWhatIsInTheHandNameNoProbeWhereThereIsNone) {
+  Seen seen;
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::ultrasound), "In the hand: needle (Tab)");
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::xray), "In the hand: needle");
+  seen.moment.state.fluoroscopy.hand_away = true;
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::xray), "Your hand is away (H)");
+  seen = {};
+  seen.held = devices::HeldTool::probe;
+  EXPECT_EQ(in_hand_words(seen, cases::Modality::ultrasound), "In the hand: probe (Tab)");
 }
 
 TEST(ActWords, OfTheBreathFollowThePatient) {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include "app/device_simulation/haply_simulation.h"
 #include "app/hands/servo_trial.h"
 #include "sim/devices/arms/arm_mapping.h"
+#include "tests/fixtures/ball_case.h"
 #include "tests/fixtures/until.h"
 
 namespace seldinger::app {
@@ -79,6 +82,48 @@ TEST(DeskHands, AnArmFeelsWhatItsToolPressesOnAndALostOneLeavesItToTheMouse) {
     last = inputs.needle.position_lps_mm;
   }
   EXPECT_FALSE(hands.arms().lost[0]);
+}
+
+// A fluoroscope's: what the tick freezes the hands freeze, too, also at a patient who breathes meanwhile.
+TEST(DeskHands, WithTheHandAwayTheNeedleStaysAndIsTakenUpWhereItIs) {
+  for (const bool breathes : {false, true}) {
+    cases::Case scene = fixtures::ball_case();
+    scene.classes.assign(scene.volume.hu.size(), volume::TissueClass::liver);
+    scene.picture.modality = cases::Modality::xray;
+    if (breathes) scene.breathing.emplace();
+    const cases::ToolPose above{{0.0, -60.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
+    devices::HandsSettings settings;
+    settings.has_probe = settings.has_guide = false;
+    DeskHands hands(scene, {above, above}, settings, haptics::Handedness::right, nullptr);
+    cases::State state;
+    state.breath.moves = breathes;
+    cases::Inputs inputs;
+    const auto tick = [&](double advance_mm, bool away, bool fire = false) {
+      devices::HandIntent intent;
+      intent.advance_mm = advance_mm;
+      intent.fire = fire;
+      inputs = {};
+      inputs.fluoroscope.hand_away = away;
+      hands.advance(intent, state, {}, kTickS, inputs);
+      ++state.tick;
+    };
+    for (int i = 0; i < 1000; ++i) tick(0.03, false);
+    const cases::ToolPose left = inputs.needle;
+    const double in_mm = hands.mouse().inserted_mm();
+    ASSERT_GT(in_mm, 5.0);
+    for (int i = 0; i < 1000; ++i) {
+      state.breath.level = breathes ? i / 1000.0 : 0.0;
+      tick(0.03, true, true);
+      ASSERT_EQ(inputs.needle.position_lps_mm, left.position_lps_mm) << i;
+      ASSERT_FALSE(inputs.fire);
+    }
+    EXPECT_NEAR(hands.mouse().inserted_mm(), in_mm, 1e-6) << "what the panel says";
+    tick(0.0, false);
+    EXPECT_LT(glm::length(inputs.needle.position_lps_mm - left.position_lps_mm), 0.2) << "no leap";
+    const glm::dvec3 back = inputs.needle.position_lps_mm;
+    for (int i = 0; i < 100; ++i) tick(0.03, false);
+    EXPECT_NEAR(glm::length(inputs.needle.position_lps_mm - back), 3.0, 0.2) << "it is led again";
+  }
 }
 
 // What comes and goes from tick to tick is one notice, and is over a second after the last of it.

@@ -75,6 +75,23 @@ TEST(Hands, OnlyAnAdvancePuncturesAndThenTheNeedleKeepsToItsLine) {
   EXPECT_NEAR(hands.needle().position_lps_mm.z, -40.0, 1e-5);
 }
 
+TEST(Hands, LetGoOfTheyForgetWhatWasStillWanted) {
+  Hands hands = inserted(15.0);
+  hands.advance(advancing(10.0), {}, 0.001);  // follows over the next 0.2 s
+  const double depth_mm = hands.inserted_mm();
+  hands.let_go();
+  run(hands, {}, 300);
+  EXPECT_NEAR(hands.inserted_mm(), depth_mm, 1e-9);
+}
+
+TEST(Hands, WithoutAProbeTheNeedleStaysInTheHand) {
+  HandsSettings settings;
+  settings.has_probe = false;
+  Hands hands(flat_skin(), above_flat(), settings);
+  hands.advance(swap(), {}, 0.001);
+  EXPECT_EQ(hands.held(), HeldTool::needle);
+}
+
 TEST(Hands, InTissueADragTurnsTheNeedleAboutItsEntry) {
   Hands hands = inserted(15.0);
   const double depth_mm = hands.inserted_mm();
