@@ -117,6 +117,12 @@ TEST_F(StudyCommands, SimulatedPeopleAreEnrolledAndSaidToBeSimulated) {
   EXPECT_NE(fixtures::whole_file(at("validity.html")).find("SIMULATED"), std::string::npos);
   library_.done("export --study Needles --raw none --out " + at("table"));
   EXPECT_NE(fixtures::whole_file(library_.folder() / "table" / "attempts.csv").find(",S-"), std::string::npos);
+  // An export has every simulated person; of a study of real people none of them has an outcome.
+  library_.done("study new Real");
+  library_.done("study plan Real " + file_of(plan("real")));
+  library_.done("export --study Real --raw none --out " + at("real"));
+  EXPECT_EQ(library_.ask("study show Real")["looks"].at(0)["people"], 0);
+  EXPECT_EQ(library_.ask("study show Needles")["looks"].back()["people"], 16);
 }
 
 TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
