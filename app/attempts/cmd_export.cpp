@@ -88,8 +88,13 @@ int run_export(const Arguments& arguments) {
   try {
     casedb::audit_alone(*library, casedb::Act::export_attempts,
                         choice.study_id ? casedb::Object{"study", *choice.study_id} : casedb::Object{});
-    if (choice.study_id && casedb::has_plan(*library, *choice.study_id))
-      casedb::note_look(*library, *choice.study_id, draft ? "export before the freeze" : "export", done->people);
+    if (choice.study_id && casedb::has_plan(*library, *choice.study_id)) {
+      // The export has all simulated people there are; a study of real ones has none of them.
+      const auto plan = casedb::find_plan(*library, *choice.study_id);
+      const bool of_simulated = plan && plan->plan.people == assessment::study::People::simulated;
+      casedb::note_look(*library, *choice.study_id, draft ? "export before the freeze" : "export",
+                        of_simulated ? done->simulated_people : done->people - done->simulated_people);
+    }
   } catch (...) {
     std::filesystem::remove_all(out);  // nothing leaves unnoted
     throw;

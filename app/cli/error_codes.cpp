@@ -237,6 +237,7 @@ constexpr ErrorCode kStudyCodes[] = {
      "`seldinger study deviate` notes what is done otherwise."},
     {"no_consent", kRefuses, "The person's consent to the study does not stand.",
      "They give it on the dashboard, or `seldinger consent give` notes it."},
+    {"real_person", kRefuses, "A real person takes no part in a study of simulated people.", ""},
     {"already_enrolled", kRefuses, "The person takes part in the study already.", ""},
     {"fact_missing", kRefuses, "The plan asks for a fact that the person has not stated.",
      "They state it on the dashboard, or `seldinger user fact` notes it."},

@@ -89,7 +89,7 @@ DemoCase liver_between_ribs() {
   made.setting.probe_is_chosen = true;
   made.setting.instrument = core_needle();
   made.setting.touch.tip = cases::NeedleTip::core;
-  made.setting.clinic = {1.1, 190.0, "", "lesion of the liver, to be told by biopsy", false};
+  made.setting.clinic = {1.1, 190.0, "", "liver lesion, for biopsy", false};
   made.setting.rule = rule_of({"core_in_target >= 8", "capsule_punctures <= 1", "skin_punctures <= 1",
                                "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                               {"nogo_length_critical <= 0"});
@@ -130,7 +130,7 @@ DemoCase beside_a_vein() {
   made.setting.instrument = core_needle();
   made.setting.touch.tip = cases::NeedleTip::core;
   made.setting.difficulty = casedb::Difficulty::hard;
-  made.setting.clinic = {1.1, 190.0, "", "lesion of the liver, to be told by biopsy", false};
+  made.setting.clinic = {1.1, 190.0, "", "liver lesion, for biopsy", false};
   made.setting.rule = rule_of({"core_in_target >= 6", "capsule_punctures <= 2", "skin_punctures <= 1",
                                "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                               {"nogo_length_critical <= 0"});

@@ -80,7 +80,7 @@ DemoCase torso_liver() {
   made.setting.instrument = core_needle();
   made.setting.touch.tip = cases::NeedleTip::core;
   made.setting.difficulty = casedb::Difficulty::easy;
-  made.setting.clinic = {1.0, 220.0, "", "lesion of the liver, to be told by biopsy", false};
+  made.setting.clinic = {1.0, 220.0, "", "liver lesion, for biopsy", false};
   made.setting.rule = rule_of({"core_in_target >= 10", "capsule_punctures <= 1", "skin_punctures <= 1",
                                "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                               {"nogo_length_critical <= 0"});

@@ -12,6 +12,7 @@
 #include "casedb/attempts/attempts.h"
 #include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
+#include "casedb/studies/enrolments.h"
 
 namespace seldinger::app {
 namespace {
@@ -31,7 +32,8 @@ base::Result<std::vector<casedb::AttemptRow>> attempts_to_rate(casedb::Library& 
   if (arguments.has("--study") && rows.empty()) {
     const auto study = casedb::find_study(library, arguments.text("--study"));
     if (!study) return study.error();
-    people = casedb::consenting_people(library, study->study_id);
+    const auto plan = casedb::find_plan(library, study->study_id);
+    people = plan ? casedb::people_asked(library, *plan) : casedb::consenting_people(library, study->study_id);
   }
   if (arguments.has("--cohort")) {
     const auto cohort = casedb::find_cohort(library, arguments.text("--cohort"));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 #include "app/cli/file.h"
 #include "app/cli/version.h"
@@ -89,17 +90,19 @@ int run_study_show(const Arguments& arguments) {
 }
 
 // Everybody who consents and takes no part yet; of those who cannot a count for each reason.
-Enrolled enrol_all(casedb::Library& library, const std::string& study_id) {
+Enrolled enrol_all(casedb::Library& library, const casedb::StoredPlan& plan) {
   Enrolled enrolled;
-  std::map<std::string, int> refused;
-  for (const std::string& person_id : casedb::consenting_people(library, study_id)) {
-    auto one = casedb::enrol_in_study(library, study_id, person_id);
+  std::map<std::pair<std::string, std::string>, int> refused;  // by code and words
+  for (const std::string& person_id : casedb::people_asked(library, plan)) {
+    auto one = casedb::enrol_in_study(library, plan.study_id, person_id);
     if (one)
       enrolled.enrolments.push_back(std::move(*one));
     else if (one.error().code != "already_enrolled")
-      ++refused[one.error().code];
+      ++refused[{one.error().code, one.error().text}];
   }
-  for (const auto& [code, people] : refused) enrolled.refused.push_back({code, std::to_string(people) + " people"});
+  for (const auto& [why, people] : refused)
+    enrolled.refused.push_back(
+        {why.first, std::to_string(people) + (people == 1 ? " person: " : " people: ") + why.second});
   return enrolled;
 }
 
@@ -115,7 +118,7 @@ int run_study_enrol(const Arguments& arguments) {
       throw UsageError("who is sent to an arm is enrolled one by one, as they come: --user");
     if (!plan->frozen())
       return refuse({"plan_not_frozen", "people are enrolled when the plan is frozen (`seldinger study freeze`)"});
-    enrolled = enrol_all(open->library, plan->study_id);
+    enrolled = enrol_all(open->library, *plan);
   } else {
     const auto person = casedb::open_account(open->library, arguments.text("--user"));
     if (!person) return refuse(person.error());
@@ -129,8 +132,7 @@ int run_study_enrol(const Arguments& arguments) {
   }
   for (const casedb::StudyEnrolment& one : enrolled.enrolments)
     std::printf("%s  %s\n", one.pseudonym.c_str(), one.group.c_str());
-  for (const base::Problem& one : enrolled.refused)
-    std::printf("not enrolled: %s, %s\n", one.text.c_str(), one.code.c_str());
+  for (const base::Problem& one : enrolled.refused) std::printf("not enrolled: %s\n", one.text.c_str());
   return kDone;
 }
 

@@ -110,7 +110,7 @@ constexpr MetricInfo kEndpointMetrics[] = {
     {"tip_target_surface", 1, "mm", "Distance to target surface", Group::target, Direction::lower_is_better,
      kEndpoint | kTarget, "As tip_target_dist, to the target's surface; negative inside.", kVidal,
      &tip_target_surface, kMedianIntervalOrFailure, kOfTheWay | kNothingIsNothing},
-    {"tip_target_axial", 1, "mm", "Short of target", Group::target, Direction::none, kEndpoint | kTarget,
+    {"tip_target_axial", 1, "mm", "Depth error", Group::target, Direction::none, kEndpoint | kTarget,
      "The part of tip_target_dist along the needle; positive when the needle stopped short.", kJohnson,
      &tip_target_axial, kMedianInterval, kOfTheWay | kNothingIsNothing},
     {"tip_target_lateral", 1, "mm", "Beside target", Group::target, Direction::lower_is_better, kEndpoint | kTarget,

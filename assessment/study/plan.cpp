@@ -68,6 +68,27 @@ std::vector<base::Problem> problems_of(const Plan& plan, const Laws& laws) {
   return wrong;
 }
 
+std::vector<base::Problem> unanswered_in(const Plan& plan) {
+  std::vector<base::Problem> wrong;
+  const auto look = [&](const std::string& place, const std::string& words) {
+    if (words.starts_with(kToReplace))
+      bad(wrong, place, "still has the template's words: put your own in their place");
+  };
+  look("title", plan.title);
+  look("intended_use", plan.intended_use);
+  look("decision", plan.decision);
+  for (std::size_t i = 0; i < plan.argument.size(); ++i) {
+    const std::string place = "argument[" + std::to_string(i) + "]";
+    look(place + ".claim", plan.argument[i].claim);
+    look(place + ".evidence", plan.argument[i].evidence);
+    for (std::size_t j = 0; j < plan.argument[i].rebuttals.size(); ++j)
+      look(place + ".rebuttals[" + std::to_string(j) + "]", plan.argument[i].rebuttals[j]);
+  }
+  look("stopping.rule", plan.stopping_rule);
+  look("missing.why", plan.missing_why);
+  return wrong;
+}
+
 const PlannedGroup* find_group(const Plan& plan, std::string_view name) {
   const auto found = std::find_if(plan.groups.begin(), plan.groups.end(),
                                   [&](const PlannedGroup& one) { return one.name == name; });

@@ -120,6 +120,9 @@ base::Result<Plan> plan_from_json(const std::string& text);
 // What is wrong with a plan by the metrics of today, in the same words; asked of drafts. `laws`: by which law of
 // sight its cases' pictures are told; of others the newest.
 std::vector<base::Problem> problems_of(const Plan& plan, const std::map<std::string, cases::SightLaw>& laws = {});
+// Words that the template asks its reader to replace; a draft may have them, and what is frozen may not.
+inline constexpr std::string_view kToReplace = "REPLACE";
+std::vector<base::Problem> unanswered_in(const Plan& plan);
 // Whether somebody can have failed at it instead of having a value.
 bool can_fail(const MetricInfo& info) noexcept;
 // Keys in their order, digits as short as they read back, no blanks: the same for every text of the same plan, and

@@ -70,7 +70,7 @@ std::vector<StationUse> list_station_use(Library& library, const std::vector<std
     StationResult& result = one->results.emplace_back();
     result.duration_s = newest.real("duration_s");
     if (!newest.is_null("target_mm")) result.target_mm = newest.real("target_mm");
-    result.hit = !newest.is_null("hit") && newest.real("hit") != 0.0;
+    if (!newest.is_null("hit")) result.hit = newest.real("hit") != 0.0;
   }
   return stations;
 }

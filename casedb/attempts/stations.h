@@ -23,7 +23,7 @@ base::Result<void> check_station_name(const std::string& name);
 struct StationResult {
   double duration_s = 0.0;
   std::optional<double> target_mm;  // tip_target_dist: from the tip to the target's centre at the endpoint
-  bool hit = false;
+  std::optional<bool> hit;          // none: it came to no endpoint
 };
 
 // What some people did at a station.

@@ -77,7 +77,7 @@ constexpr ActRow kActRows[] = {
     {Act::add_consent_text, "add_consent_text", "adds a consent text"},
     {Act::give_consent, "give_consent", "consents"},
     {Act::withdraw_consent, "withdraw_consent", "withdraws consent"},
-    {Act::give_fact, "give_fact", "says something of experience"},
+    {Act::give_fact, "give_fact", "states experience"},
     {Act::export_attempts, "export_attempts", "exports attempts"},
     {Act::export_cases, "export_cases", "writes a bundle"},
     {Act::import_cases, "import_cases", "takes cases from a bundle"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "casedb/database/audit.h"
 #include "casedb/database/question.h"
@@ -43,6 +44,22 @@ std::string digits_of(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
+}
+
+// Of the procedures in the logbook no more can have been independent than there were.
+base::Result<void> check_logbook(const std::map<std::string, std::string>& told,
+                                 const std::map<std::string, FactGiven>& before) {
+  const auto number = [&](const char* fact_id) -> std::optional<double> {
+    const auto now = told.find(fact_id);
+    const auto then = before.find(fact_id);
+    if (now != told.end()) return std::stod(now->second);
+    return then == before.end() ? std::nullopt : std::optional(std::stod(then->second.answer));
+  };
+  const auto all = number("logbook_total"), independent = number("logbook_independent");
+  if (!all || !independent || *independent <= *all) return {};
+  return base::Error{"bad_answer", std::string(find_fact("logbook_independent")->words) + ": " +
+                                       digits_of(*independent) + " are more than the " + digits_of(*all) +
+                                       " procedures in the logbook"};
 }
 
 }  // namespace
@@ -100,6 +117,9 @@ base::Result<void> give_facts(Library& library, const std::string& person_id,
   if (checked.empty()) return {};
   Transaction transaction(library.database());
   if (const auto known = check_person(library, person_id); !known) return known.error();
+  if (checked.contains("logbook_total") || checked.contains("logbook_independent"))
+    if (const auto fit = check_logbook(checked, newest_facts(list_facts(library, person_id))); !fit)
+      return fit.error();
   const std::int64_t given_us = now_us();
   for (const auto& [fact_id, answer] : checked)
     question(library.database(), "add_fact")

@@ -38,7 +38,8 @@ struct FactGiven {
   std::string fact_id, answer;
   std::int64_t given_us = 0;
 };
-// All of them or none, by their ids: `no_person`, and as checked_answer.
+// All of them or none, by their ids: `no_person`, and as checked_answer; `bad_answer`, too, where more procedures
+// would be independent than there were.
 base::Result<void> give_facts(Library& library, const std::string& person_id,
                               const std::map<std::string, std::string>& answers);
 base::Result<void> give_fact(Library& library, const std::string& person_id, const std::string& fact_id,

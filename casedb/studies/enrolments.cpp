@@ -13,6 +13,7 @@
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
+#include "casedb/people/simulated_people.h"
 #include "casedb/studies/lock.h"
 #include "sim/base/check.h"
 
@@ -58,6 +59,8 @@ base::Result<void> may_take_part(Library& library, const StoredPlan& stored, con
   if (!stored.frozen())
     return base::Error{"plan_not_frozen", "people are enrolled when the plan is frozen (`seldinger study freeze`)"};
   if (const auto known = check_person(library, person_id); !known) return known.error();
+  if (stored.plan.people == assessment::study::People::simulated && !is_simulated(library, person_id))
+    return base::Error{"real_person", "the study is of simulated people, and this person is a real one"};
   if (!consenting_people(library, stored.study_id).contains(person_id))
     return base::Error{"no_consent", "the person's consent to this study does not stand"};
   for (const StudyEnrolment& one : list_study_enrolments(library, stored.study_id))
@@ -68,6 +71,14 @@ base::Result<void> may_take_part(Library& library, const StoredPlan& stored, con
 }
 
 }  // namespace
+
+std::set<std::string> people_asked(Library& library, const StoredPlan& stored) {
+  std::set<std::string> people = consenting_people(library, stored.study_id);
+  // Consent to research with the library covers real people in a study of simulated ones, too.
+  if (stored.plan.people == assessment::study::People::simulated)
+    std::erase_if(people, [&](const std::string& person_id) { return !is_simulated(library, person_id); });
+  return people;
+}
 
 base::Result<StudyEnrolment> enrol_in_study(Library& library, const std::string& study_id,
                                             const std::string& person_id) {

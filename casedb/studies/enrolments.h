@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,11 @@ struct StudyEnrolment {
   bool consents = true;  // still
 };
 
-// By the facts that hold now. `no_plan`, `plan_not_frozen`, `data_locked`, `no_person`, `no_consent`,
-// `already_enrolled`, `fact_missing` (the person has not said what the plan asks), `no_group` (none fits, or more
-// than one).
+// Who may be enrolled, or is: people whose consent stands, of the kind that the plan is of.
+std::set<std::string> people_asked(Library& library, const StoredPlan& stored);
+// By the facts that hold now. `no_plan`, `plan_not_frozen`, `data_locked`, `no_person`, `real_person` (the study is
+// of simulated people), `no_consent`, `already_enrolled`, `fact_missing` (the person has not said what the plan
+// asks), `no_group` (none fits, or more than one).
 base::Result<StudyEnrolment> enrol_in_study(Library& library, const std::string& study_id,
                                             const std::string& person_id);
 std::vector<StudyEnrolment> list_study_enrolments(Library& library, const std::string& study_id);

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "casedb/cases/cases.h"
 #include "casedb/database/audit.h"
@@ -114,6 +115,8 @@ base::Result<StoredPlan> freeze_plan(Library& library, const std::string& study_
   if (!draft) return draft.error();
   if (draft->frozen()) return base::Error{"plan_frozen", "the plan is frozen already"};
   if (const auto checked = check_plan(library, draft->plan); !checked) return checked.error();
+  if (auto unanswered = study::unanswered_in(draft->plan); !unanswered.empty())
+    return base::Error{"bad_study_plan", "the plan is not finished", std::move(unanswered)};
   std::array<std::byte, 32> random{};
   fill_random(random);
   const std::string seed = base::hex_from_bytes(random);

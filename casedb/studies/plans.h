@@ -34,7 +34,7 @@ bool has_draft(Library& library, const std::string& study_id);
 // none of the library's), `plan_frozen`.
 base::Result<StoredPlan> store_plan(Library& library, const std::string& study_id, const std::string& json);
 // Body, hash, time and the allocation's seed in one transaction. `no_plan`, `plan_frozen`, `bad_study_plan` (a
-// metric has another version by now).
+// metric has another version by now, or words of the template stand).
 base::Result<StoredPlan> freeze_plan(Library& library, const std::string& study_id);
 
 }  // namespace seldinger::casedb

@@ -11,7 +11,6 @@
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/grading/grading.h"
-#include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/studies/lock.h"
 
@@ -70,7 +69,7 @@ std::string digits_of_value(double value) {
 StudyData study_data(Library& library, const StoredPlan& stored) {
   const Snapshot one_state(library.database());
   StudyData data;
-  data.flow.consenting = consenting_people(library, stored.study_id).size();
+  data.flow.consenting = people_asked(library, stored).size();
   data.flow.ever_enrolled = count_ever_enrolled(library, stored.study_id);
   for (const study::PlannedGroup& group : stored.plan.groups) data.flow.groups.push_back({group.name, 0, 0, 0, 0});
   const std::set<std::string> cases = cases_of(stored.plan), metrics = metrics_of(stored.plan);
@@ -134,7 +133,7 @@ BlindedCounts blinded_counts(Library& library, const StoredPlan& stored) {
   const Snapshot one_state(library.database());
   const std::set<std::string> cases = cases_of(stored.plan);
   BlindedCounts counts;
-  for (const std::string& person_id : consenting_people(library, stored.study_id)) {
+  for (const std::string& person_id : people_asked(library, stored)) {
     ++counts.consenting;
     const auto rows = list_bare_attempts_of(library, person_id);
     const auto attempts = static_cast<std::size_t>(std::count_if(

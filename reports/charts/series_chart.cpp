@@ -38,7 +38,7 @@ Axis y_axis(const SeriesChart& chart, std::vector<double>& ticks) {
   for (const auto& one : chart.curve) hold(one.second);
   for (const SeriesLimit& one : chart.limits) hold(one.y);
   if (chart.band) hold(chart.band->low), hold(chart.band->high);
-  ticks = round_ticks(chart.y_low.value_or(low), chart.y_high.value_or(high));
+  ticks = round_ticks(chart.y_low.value_or(low), chart.y_high.value_or(high), chart.y_whole ? 1.0 : 0.0);
   return {ticks.front(), ticks.back(), kHeight - kBottom, kTop};
 }
 
@@ -54,7 +54,7 @@ void add_axes(Html& html, const SeriesChart& chart, const Axis& x, const Axis& y
               const std::vector<double>& x_ticks) {
   for (const double tick : ticks) {
     add_svg_line(html, "grid", kLeft, y.at(tick), kWidth - kRight, y.at(tick));
-    add_svg_text(html, "end", kLeft - 6.0, y.at(tick) + 4.0, tick_text(tick));
+    add_svg_text(html, "end", kLeft - 6.0, y.at(tick) + 4.0, tick_text(tick * chart.y_shown));
   }
   for (const double at : x_ticks) add_svg_text(html, "middle", x.at(at), kHeight - kBottom + 15.0, tick_text(at));
   add_svg_text(html, "middle", 0.5 * (kLeft + kWidth - kRight), kHeight - 6.0, chart.x_label);

@@ -36,6 +36,8 @@ struct SeriesChart {
   std::optional<double> y_low, y_high;  // the ends of a scale that has them
   bool measured_x = false;              // x is a measure with round numbers below, not the place in a row
   std::optional<SeriesBand> band{};
+  double y_shown = 1.0;  // times what is written at the ticks: a share as 100 times a per cent
+  bool y_whole = false;  // a count: no ticks between whole numbers
 };
 // What is not finite is left out. Nothing is drawn of no point.
 Html series_chart(const SeriesChart& chart);

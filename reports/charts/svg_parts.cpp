@@ -1,5 +1,6 @@
 #include "reports/charts/svg_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -21,7 +22,7 @@ void add_svg_text(Html& html, std::string_view anchor, double x, double y, std::
   html.raw("\">").text(text).raw("</text>");
 }
 
-std::vector<double> round_ticks(double low, double high) {
+std::vector<double> round_ticks(double low, double high, double least_step) {
   if (!(high > low)) {
     const double off = low == 0.0 ? 1.0 : 0.1 * std::abs(low);
     low -= off;
@@ -30,6 +31,7 @@ std::vector<double> round_ticks(double low, double high) {
   double step = std::pow(10.0, std::floor(std::log10((high - low) / 4.0)));
   for (const double factor : {2.0, 2.5, 2.0})  // 1, 2, 5, 10
     if ((high - low) / step > 6.0) step *= factor;
+  step = std::max(step, least_step);
   // A hair, so that what is round already stays an end.
   const double first = std::floor(low / step + 1e-9), last = std::ceil(high / step - 1e-9);
   std::vector<double> ticks;

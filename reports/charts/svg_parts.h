@@ -16,7 +16,7 @@ void add_svg_line(Html& html, std::string_view kind, double x1, double y1, doubl
 void add_svg_text(Html& html, std::string_view anchor, double x, double y, std::string_view text);
 
 // Round numbers, about 4 to 8 of them, that hold low to high: {0, 5, 10, 15, 20}.
-std::vector<double> round_ticks(double low, double high);
+std::vector<double> round_ticks(double low, double high, double least_step = 0.0);
 std::string tick_text(double value);  // without needless digits, with a true minus sign
 
 }  // namespace seldinger::reports

@@ -334,7 +334,10 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
       facts.names.person = place.person;
       facts.person_attempt = place.person_attempt;
       facts.days_since_first = place.days;
-      if (place.person != person_before) ++sum.people;
+      if (place.person != person_before) {
+        ++sum.people;
+        sum.simulated_people += place.key->of_simulated_person ? 1U : 0U;
+      }
       people.insert(*place.key->person_id);
       person_before = place.person;
     }

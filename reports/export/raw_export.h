@@ -27,6 +27,7 @@ struct RawChoice {
 
 struct RawExport {
   std::size_t attempts = 0, synthetic = 0, people = 0, metrics = 0, files = 0;
+  std::size_t simulated_people = 0;  // of `people`
 };
 
 // `out` appears whole or not at all; attempts that are added meanwhile are not in it. One attempt's recording is in

@@ -1,5 +1,3 @@
-#include "assessment/grading/debrief.h"
-#include "assessment/registry.h"
 #include "assessment/statistics/reasons.h"
 #include "casedb/people/cohorts.h"
 #include "reports/charts/interval_chart.h"
@@ -8,6 +6,7 @@
 #include "reports/learning/learning_page.h"
 #include "reports/studies/study_words.h"
 #include "reports/words/dependability_words.h"
+#include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -21,11 +20,7 @@ bool told(const CaseReport& report, std::size_t persons) {
 
 std::string rule_text(const assessment::PassRule& rule) {
   std::string text;
-  for (const assessment::Criterion& one : rule.criteria) {
-    const assessment::MetricInfo* info = assessment::find_metric(one.metric);
-    text += (text.empty() ? "" : "; ") + metric_label(one.metric) + ": " +
-            assessment::limit_text(one, info == nullptr ? "" : info->unit);
-  }
+  for (const RuleLine& one : rule_lines(rule)) text += (text.empty() ? "" : "; ") + one.metric + ": " + one.bound;
   return text.empty() ? "no pass rule" : text;
 }
 

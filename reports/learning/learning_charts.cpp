@@ -104,7 +104,11 @@ void add_curve(Html& html, const LearnerItem& item, const assessment::Criterion&
     }
   chart.said = std::string(info.label) + " at each attempt";
   chart.x_label = "attempt";
-  chart.y_label = std::string(info.unit);
+  // As limits and values are written: a share in per cent, an angle with its sign, a count as itself.
+  const std::string_view unit = info.unit;
+  chart.y_label = unit == "share" ? "%" : unit == "deg" ? "°" : unit == "count" ? "" : std::string(unit);
+  chart.y_shown = unit == "share" ? 100.0 : 1.0;
+  chart.y_whole = unit == "count";
   chart.limits = {{criterion.value, assessment::limit_text(criterion, info.unit)}};
   const std::string experts = add_expert_band(chart, item.experts, info.id, criterion.version);
   html.add(series_chart(chart));
@@ -185,9 +189,14 @@ void add_proficiency(Html& html, LearnedCourse& course) {
   html.raw(" passed, so that the share is between ").text(share_text(*further(answer, "share_low")));
   html.raw(" and ").text(share_text(*further(answer, "share_high"))).raw(" (95 %). The rule: proficient from ");
   html.text(number_text(rule.sure, 1)).raw(" on, over the last ").text(std::to_string(rule.last));
+  html.raw(" graded attempts.");
+  if (course.x.size() < 2) {  // two running are yet to be made
+    html.raw("</p>\n");
+    return;
+  }
   html.raw(
-      " graded attempts. The curriculum’s own rule, two passes running, is weaker: somebody who passes half of "
-      "the time meets it within ");
+      " The curriculum’s own rule, two passes running, is weaker: somebody who passes half of the time meets it "
+      "within ");
   html.text(std::to_string(course.x.size())).raw(" attempts with a probability of ");
   html.text(number_text(*further(answer, "two_running_by_half"), 2)).raw(".</p>\n");
 }

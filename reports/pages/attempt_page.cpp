@@ -176,6 +176,9 @@ void add_drawn(Html& html, const casedb::AttemptRow& row) {
   if (xray)
     for (const std::string_view id : {"views", "pulses", "fluoroscopy_time", "collimated_share", "hand_in_beam"})
       html.add(metric_details(id)).raw("\n");
+  if (row.instrument.kind == cases::InstrumentKind::core)
+    html.raw(
+        "<p class=\"note\">The metric takes the middle of the core needle's notch, the drawing its tip.</p>\n");
   html.raw("</div>\n");
 }
 

@@ -104,10 +104,11 @@ std::string attempts_page(const Visitor& visitor, std::span<const AttemptView> a
       .raw(", newest first: ")
       .text(std::to_string(part.total));
   html.raw(
-      ". Times are in UTC.</caption>\n<thead><tr><th scope=\"col\">When</th><th scope=\"col\">Case</th>"
+      ". Times are in UTC; the endpoint is the tip, with a core needle the middle of its "
+      "notch.</caption>\n<thead><tr><th scope=\"col\">When</th><th scope=\"col\">Case</th>"
       "<th scope=\"col\">Operator</th><th scope=\"col\">Instrument</th><th scope=\"col\">Result</th><th "
       "scope=\"col\" class=\"number\"><a href=\"/metrics#metric-hit\">Hit</a></th>"
-      "<th scope=\"col\" class=\"number\"><a href=\"/metrics#metric-tip_target_dist\">Tip to centre</a></th>"
+      "<th scope=\"col\" class=\"number\"><a href=\"/metrics#metric-tip_target_dist\">Endpoint to centre</a></th>"
       "<th scope=\"col\" class=\"number\"><a href=\"/metrics#metric-time_total\">Time</a></th></tr></thead>\n"
       "<tbody>\n");
   for (const AttemptView& view : attempts) add_row(html, view);

@@ -1,11 +1,9 @@
 #include "reports/pages/case_page.h"
 
-#include <algorithm>
-
-#include "assessment/registry.h"
 #include "casedb/cases/setting_table.h"
 #include "reports/words/attempt_words.h"
 #include "reports/words/dependability_words.h"
+#include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -32,19 +30,6 @@ std::string guidance_text(const casedb::CaseRow& row) {
   text += row.subject == cases::Subject::phantom ? "phantom" : "patient " + words(casedb::name_of(row.position));
   for (const cases::Modality one : row.further_modalities) text += ", also " + casedb::name_of(one);
   return text;
-}
-
-// "at least 8.0 mm", "at most 0.0 mm", "Yes".
-std::string bound_text(const assessment::Criterion& criterion) {
-  const assessment::MetricInfo* info = assessment::find_metric(criterion.metric);
-  casedb::MetricValue value{criterion.metric, criterion.version, criterion.value, info != nullptr ? info->unit : "",
-                            ""};
-  const bool yes_or_no = value.unit == "bool";
-  const char* sign = yes_or_no                                                  ? ""
-                     : criterion.comparison == assessment::Comparison::at_least ? "at least "
-                     : criterion.comparison == assessment::Comparison::at_most  ? "at most "
-                                                                                : "";
-  return sign + value_text(value) + (criterion.critical ? "; missing it is a critical error" : "");
 }
 
 std::string lesion_text(const casedb::LesionRow& lesion) {
@@ -109,8 +94,8 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   }
 
   add_table(html, "To pass");
-  for (const assessment::Criterion& one : row.rule.criteria)
-    add_fact(html, metric_label(one.metric), bound_text(one));
+  for (const RuleLine& one : rule_lines(row.rule))
+    add_fact(html, one.metric, one.bound + (one.critical ? "; missing it is a critical error" : ""));
   // Until a director sets one it is nobody's standard (casedb/grading/standards.h).
   add_fact(html, "Standing",
            row.rule.criteria.empty() ? ""

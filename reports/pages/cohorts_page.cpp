@@ -44,9 +44,9 @@ std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> coh
     return page("Cohorts", visitor, html);
   }
   html.raw(
-      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Learners, what they did in the cohort, and how often "
-      "they "
-      "hit</caption>\n<thead><tr><th scope=\"col\">Cohort</th><th "
+      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Learners, what they did themselves in the cohort, "
+      "and how "
+      "often they hit; nothing simulated counts</caption>\n<thead><tr><th scope=\"col\">Cohort</th><th "
       "scope=\"col\">Programme</th><th scope=\"col\">Learners</th><th scope=\"col\" "
       "class=\"number\">Attempts</th><th "
       "scope=\"col\" class=\"number\">Hits</th></tr></thead>\n<tbody>\n");

@@ -56,8 +56,7 @@ void add_consent(Html& html, const Visitor& visitor, const casedb::Consent& one,
   html.raw("</form>\n</article>\n");
 }
 
-void add_fact(Html& html, const casedb::FactInfo& fact, const casedb::FactGiven* last) {
-  const std::string value = last == nullptr ? "" : last->answer;
+void add_fact(Html& html, const casedb::FactInfo& fact, const casedb::FactGiven* last, const std::string& value) {
   html.raw("<p><label for=\"").text(fact.id).raw("\">").text(fact.words);
   html.raw("</label>\n");
   if (fact.is_choice()) {
@@ -117,7 +116,9 @@ std::string me_page(const Visitor& visitor, const AboutMe& about, const Told& to
   const auto last = casedb::newest_facts(about.facts);
   for (const casedb::FactInfo& fact : casedb::fact_infos()) {
     const auto found = last.find(std::string(fact.id));
-    add_fact(html, fact, found == last.end() ? nullptr : &found->second);
+    const casedb::FactGiven* given = found == last.end() ? nullptr : &found->second;
+    const auto typed = told.typed.find(std::string(fact.id));
+    add_fact(html, fact, given, typed != told.typed.end() ? typed->second : given != nullptr ? given->answer : "");
   }
   html.raw(
       "<p><button>Save</button></p>\n</form>\n</section>\n<section>\n<h2>Delete what you recorded</h2>\n"

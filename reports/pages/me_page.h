@@ -2,6 +2,7 @@
 // people, and the deletion of what they recorded.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +18,11 @@ struct AboutMe {
   std::vector<casedb::Consent> consents;
 };
 
-// What came of the last answer: what was wrong with it, or what was done; empty: nothing.
+// What came of the last answer: what was wrong with it, or what was done; empty: nothing. `typed`: facts that were
+// refused, by their ids, so that nobody types them again.
 struct Told {
   std::string problem{}, done{};
+  std::map<std::string, std::string> typed{};
 };
 
 // Its forms go to /me/consent, /me/facts and /me/erase.

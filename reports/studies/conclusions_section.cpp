@@ -38,9 +38,11 @@ Html conclusions_section(const ValidityReport& report) {
                          "Primary outcomes: these alone bear conclusions, at α = " + digits_text(alpha) +
                              " for all of them together (Holm)"));
   html.raw(
-      "<p class=\"note\">The square is the estimate, the line its 95 % interval, the dashed line no difference; "
-      "the "
-      "grey band holds differences smaller than the smallest worthwhile one. P is the chance that one of the first "
+      "<p class=\"note\">The square is the estimate, the line its 95 % interval, the dashed line no difference");
+  if (draws_worthwhile(report.result.primary))
+    html.raw("; the grey band holds differences smaller than the smallest worthwhile one");
+  html.raw(
+      ". P is the chance that one of the first "
       "group has the larger value than one of the second, ties half. “Would have been found”: with 80 % power at "
       "α = 0.05, one test, two-sided.</p>\n");
   return html.add(sensitivity_table(report.result.primary)).raw("</section>\n");

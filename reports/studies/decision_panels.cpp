@@ -63,7 +63,9 @@ void add_decisions(Html& html, const study::Compared& one, const PassMark& mark)
 Html internal_structure_panel(const ValidityReport& report) {
   Html html = evidence_panel("Internal structure", "Whether repeated attempts agree");
   html.raw(
-      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Persons</th><th scope=\"col\">ICC(2,1) of "
+      "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Whether repeated attempts "
+      "agree\"><table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Persons</th><th "
+      "scope=\"col\">ICC(2,1) of "
       "the last two attempts</th><th scope=\"col\">Error of one attempt</th><th scope=\"col\">Least change of a "
       "person that is more than error</th></tr></thead><tbody>\n");
   for (const study::Compared& one : report.result.primary) {
@@ -84,7 +86,8 @@ Html internal_structure_panel(const ValidityReport& report) {
     html.text(number_or_dash(further(answer, "mdc95"), unit)).raw("</td></tr>\n");
   }
   return html.raw(
-      "</tbody></table>\n<p class=\"note\">Of people who have two attempts with a value, both groups together: "
+      "</tbody></table></div>\n<p class=\"note\">Of people who have two attempts with a value, both groups "
+      "together: "
       "groups that differ raise it. Attempts between which somebody learns lower it.</p>\n</article>\n");
 }
 

@@ -1,5 +1,6 @@
 #include "reports/studies/outcome_table.h"
 
+#include <algorithm>
 #include <string>
 
 #include "assessment/registry.h"
@@ -30,10 +31,18 @@ std::string effect_words(const study::Compared& one) {
          interval_text(one.answer.ci95);
 }
 
+bool is_drawn(const study::Compared& one) {
+  return one.refused.empty() && one.answer.estimate.has_value();
+}
+
+bool is_probability(const study::Compared& one) {
+  return one.outcome.test == study::Test::brunner_munzel;
+}
+
 void add_effect(Html& html, const study::Compared& one) {
   const std::string words = effect_words(one);
-  if (one.refused.empty() && one.answer.estimate) {
-    const bool probability = one.outcome.test == study::Test::brunner_munzel;
+  if (is_drawn(one)) {
+    const bool probability = is_probability(one);
     ForestRow row{.estimate = *one.answer.estimate,
                   .interval = one.answer.ci95,
                   .nothing = probability ? 0.5 : 0.0,
@@ -51,6 +60,11 @@ void add_effect(Html& html, const study::Compared& one) {
 }
 
 }  // namespace
+
+bool draws_worthwhile(const std::vector<study::Compared>& outcomes) {
+  return std::any_of(outcomes.begin(), outcomes.end(),
+                     [](const study::Compared& one) { return is_drawn(one) && !is_probability(one); });
+}
 
 Html outcome_table(const std::vector<study::Compared>& outcomes, double alpha, bool confirmatory,
                    std::string_view caption) {

@@ -1,6 +1,12 @@
 #include "reports/words/grade_words.h"
 
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "assessment/grading/debrief.h"
 #include "assessment/grading/plain_words.h"
+#include "assessment/registry.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -12,7 +18,37 @@ std::string counted(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
+// The lower and the upper bound of the same value, or not.
+bool bounds_both(const assessment::Criterion& low, const assessment::Criterion& high) {
+  return low.metric == high.metric && low.version == high.version && low.critical == high.critical &&
+         low.comparison == assessment::Comparison::at_least && high.comparison == assessment::Comparison::at_most &&
+         low.value < high.value;
+}
+
+std::string both_text(double low, double high, std::string_view unit) {
+  if (low == -high) return "within ±" + assessment::plain_value(high, unit);
+  return "from " + assessment::plain_value(low, unit) + " to " + assessment::plain_value(high, unit);
+}
+
 }  // namespace
+
+std::vector<RuleLine> rule_lines(const assessment::PassRule& rule) {
+  std::vector<RuleLine> lines;
+  std::set<const assessment::Criterion*> told;
+  for (const assessment::Criterion& one : rule.criteria) {
+    if (told.contains(&one)) continue;
+    const assessment::MetricInfo* info = assessment::find_metric(one.metric);
+    const std::string_view unit = info == nullptr ? "" : info->unit;
+    std::string bound = assessment::limit_text(one, unit);
+    for (const assessment::Criterion& other : rule.criteria) {
+      if (!bounds_both(one, other) && !bounds_both(other, one)) continue;
+      bound = both_text(std::min(one.value, other.value), std::max(one.value, other.value), unit);
+      told.insert(&other);
+    }
+    lines.push_back({metric_label(one.metric), std::move(bound), one.critical});
+  }
+  return lines;
+}
 
 std::string verdict_word(Verdict verdict) {
   switch (verdict) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "casedb/grading/grading.h"
 
@@ -12,6 +13,13 @@ std::string verdict_text(const assessment::Grade& grade);  // "Passed", "Not pas
 std::string verdict_word(
     assessment::Verdict verdict);  // for lists: "Passed", "Not passed", "Not graded", "No rule"
 std::string score_text(const assessment::Score& score);  // "63 of 100", "none: no standard"
+// A rule's criteria for people, a line each; where two bound the same value from both sides, one line.
+struct RuleLine {
+  std::string metric;  // its label
+  std::string bound;   // "at most 3 mm", "within ±3 mm", "from −2 mm to 3 mm", "yes"
+  bool critical = false;
+};
+std::vector<RuleLine> rule_lines(const assessment::PassRule& rule);
 // "One more pass, at the next attempt, and you are proficient here."; `missing`: passes running.
 std::string proficiency_text(int missing);
 std::string experts_text(const assessment::ExpertSet& set);  // who they are, how many, since when

@@ -85,7 +85,11 @@ std::string step_result_text(const StepResult& step) {
   const StepMark& mark = step_mark(step);
   std::string text = *mark.sign != '\0' ? std::string(mark.sign) + " " + mark.words : std::string(mark.words);
   if (step.t_s) text += " at " + number_text(*step.t_s, 1) + " s";
-  return text + ": " + (step.reason.empty() ? mark.meaning : assessment::reason_words(step.reason));
+  if (!step.reason.empty()) return text + ": " + assessment::reason_words(step.reason);
+  // Bone that was never met was kept off: what is missing is the way to the target.
+  const StepInfo* info = assessment::find_step(step.id);
+  const bool on_the_way = info != nullptr && info->completes == Evidence::at_target;
+  return text + ": " + (mark_of(step) == kLeftOut && on_the_way ? "the target was not reached" : mark.meaning);
 }
 
 std::string step_fault_text(const StepResult& step) {

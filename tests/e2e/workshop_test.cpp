@@ -51,6 +51,8 @@ TEST(WorkshopCommands, ThePageIsWhatCanBeTyped) {
   // Once the study has a plan, it is told when she is to come back.
   const std::string plan = (library.folder() / "plan.json").string();
   library.done("study template --case " + case_id + " --out '" + plan + "'");
+  const std::string words = fixtures::answered(fixtures::whole_file(plan));
+  std::ofstream(plan) << words;
   library.done("study plan 'Study day' '" + plan + "' --by rita");
   library.done("study freeze 'Study day' --by rita");
   library.done("user fact tina years_in_radiology 0");

@@ -54,6 +54,23 @@ void give_standard(casedb::AttemptGrade& grade, std::size_t people) {
   grade.provisional = false;
 }
 
+TEST(RuleLines, TwoBoundsOfOneValueAreOneLine) {
+  assessment::PassRule rule;
+  for (const char* one : {"hit >= 1", "tip_target_axial >= -3", "skin_punctures <= 1", "tip_target_axial <= 3"})
+    rule.criteria.push_back(*assessment::criterion_from(one));
+  auto lines = rule_lines(rule);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0].bound, "yes");
+  EXPECT_EQ(lines[1].metric + ": " + lines[1].bound, "Depth error: within ±3 mm");
+  EXPECT_EQ(lines[2].bound, "at most 1");
+  rule.criteria[1].value = -2.0;
+  EXPECT_EQ(rule_lines(rule)[1].bound, "from −2 mm to 3 mm");
+  rule.criteria[1].critical = true;
+  lines = rule_lines(rule);
+  ASSERT_EQ(lines.size(), 4U) << "only one of them is critical";
+  EXPECT_TRUE(lines[1].critical);
+}
+
 TEST(GradeOnPage, SentencesComeBeforeEverythingElse) {
   AttemptView view = sample_attempt();
   view.grade = failed_grade();

@@ -26,8 +26,8 @@ TEST(Cases, APageNamesWhatItHoldsAndEscapesIt) {
   const std::string page = browser.get("/cases/" + kDraftCase).body;
   EXPECT_THAT(page, Not(HasSubstr("<script>x")));
   EXPECT_THAT(page, Not(HasSubstr("<b>")));
-  EXPECT_THAT(page, HasSubstr("Target hit</th><td>Yes</td>"));
-  EXPECT_THAT(page, HasSubstr("at least 8.0 mm; missing it is a critical error"));
+  EXPECT_THAT(page, HasSubstr("Target hit</th><td>yes</td>"));
+  EXPECT_THAT(page, HasSubstr("at least 8 mm; missing it is a critical error"));
   EXPECT_THAT(page, HasSubstr("provisional"));
   EXPECT_THAT(page, HasSubstr("draft, version 1"));
   EXPECT_THAT(browser.get("/cases/" + kDraftCase + "/checks.json").body, HasSubstr("\"holds\":false"));

@@ -107,6 +107,13 @@ TEST(People, FactsAreAskedByTheTableAndOnlyWhatChangedIsStored) {
   const Response refused = browser.post("/me/facts", "confidence=11&token=" + token);
   EXPECT_EQ(refused.status, 400);
   EXPECT_THAT(refused.body, HasSubstr("a whole number from 1 to 10"));
+  // What was typed is there to be mended, and not typed again.
+  const std::string again =
+      browser.post("/me/facts", "confidence=11&logbook_total=44&handedness=left&token=" + token).body;
+  EXPECT_THAT(again, HasSubstr("value=\"11\""));
+  EXPECT_THAT(again, HasSubstr("value=\"44\""));
+  EXPECT_THAT(again, HasSubstr("<option value=\"left\" selected>"));
+  EXPECT_THAT(browser.get("/me").body, Not(HasSubstr("value=\"44\"")));
 }
 
 TEST(People, CohortsAreNamedToTheirMentorAndDirectorAndCountedToOtherDirectors) {

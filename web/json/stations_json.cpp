@@ -27,7 +27,7 @@ std::string stations_json(std::span<const casedb::StationUse> stations) {
     for (const casedb::StationResult& result : one.results)
       results.push_back({{"duration_s", result.duration_s},
                          {"target_mm", result.target_mm ? Json(*result.target_mm) : Json(nullptr)},
-                         {"hit", result.hit}});
+                         {"hit", result.hit ? Json(*result.hit) : Json(nullptr)}});
     list.push_back({{"station", casedb::maybe(one.station)},
                     {"attempts", one.attempts},
                     {"simulated", one.simulated},

@@ -1,6 +1,7 @@
 // What somebody decides of themselves: consent, facts, deletion.
 #include <charconv>
 #include <map>
+#include <utility>
 
 #include "reports/pages/me_page.h"
 #include "web/json/lists_json.h"
@@ -81,13 +82,16 @@ Response answer_consent(Site& site, const Call& call) {
 
 Response give_facts(Site& site, const Call& call) {
   const auto given = casedb::newest_facts(site.questions.about(call.reader->account.person_id).facts);
-  std::map<std::string, std::string> answers;
+  std::map<std::string, std::string> answers, typed;
   for (const casedb::FactInfo& fact : casedb::fact_infos()) {
     const std::string id(fact.id), answer = call.field(id);
     const auto last = given.find(id);
+    typed.emplace(id, answer);
     if (!answer.empty() && (last == given.end() || last->second.answer != answer)) answers.emplace(id, answer);
   }
-  return after(site, call, site.questions.give_facts(call.reader->account.person_id, answers), kSaved);
+  const auto saved = site.questions.give_facts(call.reader->account.person_id, answers);
+  if (!saved) return me(site, call, 400, {.problem = saved.error().text, .typed = std::move(typed)});
+  return after(site, call, saved, kSaved);
 }
 
 Response erase_own(Site& site, const Call& call) {

@@ -45,11 +45,12 @@ std::string middle_text(const std::vector<double>& values, int digits, const cha
 
 void add_use_row(Html& html, const casedb::StationUse& one) {
   std::vector<double> durations_s, distances_mm;
-  std::size_t hits = 0;
+  std::size_t hits = 0, with_hit = 0;  // as the cohorts count them: of those that came to an endpoint
   for (const casedb::StationResult& result : one.results) {
     durations_s.push_back(result.duration_s);
     if (result.target_mm) distances_mm.push_back(*result.target_mm);
-    hits += result.hit ? 1 : 0;
+    with_hit += result.hit ? 1U : 0U;
+    hits += result.hit.value_or(false) ? 1U : 0U;
   }
   html.raw("<tr><th scope=\"row\">").name(station_text(one.station));
   html.raw("</th><td class=\"number\" data-label=\"Hours\">").text(number_text(one.duration_s / kSecondsOfHour, 1));
@@ -62,19 +63,20 @@ void add_use_row(Html& html, const casedb::StationUse& one) {
   html.raw("</td><td class=\"number\" data-label=\"Median time\">").text(middle_text(durations_s, 0, " s"));
   html.raw("</td><td class=\"number\" data-label=\"Median distance\">").text(middle_text(distances_mm, 1, " mm"));
   html.raw("</td><td class=\"number\" data-label=\"Hits\">");
-  html.text(std::to_string(hits) + " of " + std::to_string(one.results.size())).raw("</td></tr>\n");
+  html.text(with_hit == 0 ? "—" : std::to_string(hits) + " of " + std::to_string(with_hit)).raw("</td></tr>\n");
 }
 
 void add_speed(Html& html, const casedb::StationUse& one) {
   SeriesChart chart;
-  chart.said = "Distance to the target's centre against time at " + station_text(one.station) +
+  chart.said = "Distance from endpoint to target centre against time at " + station_text(one.station) +
                ": one point an attempt, hollow where it missed";
   chart.x_label = "Time of the attempt, s";
   chart.y_label = "Distance, mm";
   chart.y_low = 0.0;
   chart.measured_x = true;
   for (const casedb::StationResult& result : one.results)
-    if (result.target_mm) chart.points.push_back({result.duration_s, *result.target_mm, result.hit});
+    if (result.target_mm)
+      chart.points.push_back({result.duration_s, *result.target_mm, result.hit.value_or(false)});
   std::sort(chart.points.begin(), chart.points.end(),
             [](const SeriesPoint& a, const SeriesPoint& b) { return a.x < b.x; });
   html.raw("<h3>").name(station_text(one.station)).raw("</h3>\n");
@@ -187,10 +189,10 @@ std::string stations_page(const Visitor& visitor, std::span<const casedb::Statio
       "class=\"number\">Median distance</th><th scope=\"col\" class=\"number\">Hits</th></tr></thead>\n<tbody>\n");
   for (const casedb::StationUse& one : stations) add_use_row(html, one);
   html.raw(
-      "</tbody>\n</table>\n</div>\n<h2>Speed against accuracy</h2>\n<p>From the needle's tip at the endpoint to "
-      "the "
-      "target's "
-      "centre, against how long the attempt took. Hollow points missed.</p>\n");
+      "</tbody>\n</table>\n</div>\n<h2>Speed against accuracy</h2>\n<p>From the endpoint (the tip; with a core "
+      "needle the "
+      "middle of its notch) to the target's centre, against how long the attempt took. Hollow points "
+      "missed.</p>\n");
   for (const casedb::StationUse& one : stations) add_speed(html, one);
   return list_page("Stations", visitor, html);
 }

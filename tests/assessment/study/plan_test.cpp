@@ -45,6 +45,24 @@ TEST(Plan, IsReadAsItIsWritten) {
   EXPECT_EQ(plan.people, People::real);
 }
 
+TEST(Plan, WordsOfTheTemplateAreFoundWhereverTheyStand) {
+  EXPECT_TRUE(unanswered_in(sample_plan()).empty());
+  const auto places = [](const std::string& from, const std::string& to) {
+    std::string all;
+    for (const base::Problem& one : unanswered_in(plan_from_json(with(from, to)).value())) all += one.text + "\n";
+    return all;
+  };
+  for (const auto& [field, place] : {std::pair{"\"title\": \"", "title "},
+                                     {"\"intended_use\": \"", "intended_use "},
+                                     {"\"decision\": \"", "decision "},
+                                     {"\"claim\": \"", "argument[0].claim "},
+                                     {"\"evidence\": \"", "argument[0].evidence "},
+                                     {"\"rebuttals\": [\"", "argument[0].rebuttals[0] "},
+                                     {"\"rule\": \"", "stopping.rule "},
+                                     {"\"why\": \"", "missing.why "}})
+    EXPECT_EQ(places(field, std::string(field) + "REPLACE: ").rfind(place, 0), 0U) << place;
+}
+
 TEST(Plan, ItsCanonicalTextIsOneAndReadsBack) {
   const std::string canonical = canonical_json(sample_plan());
   EXPECT_EQ(canonical_json(plan_from_json(canonical).value()), canonical);

@@ -75,8 +75,9 @@ TEST_F(StationsTest, SumsWhatSomePeopleDidAtEach) {
   ASSERT_EQ(use[1].results.size(), 3U);
   EXPECT_FALSE(use[1].results[0].target_mm) << "the newest, which came to no endpoint";
   EXPECT_EQ(use[1].results[1].target_mm, 5.0);
-  EXPECT_FALSE(use[1].results[1].hit);
-  EXPECT_TRUE(use[1].results[2].hit) << "by the newest version of hit";
+  EXPECT_FALSE(use[1].results[0].hit) << "neither hit nor missed";
+  EXPECT_EQ(use[1].results[1].hit, false);
+  EXPECT_EQ(use[1].results[2].hit, true) << "by the newest version of hit";
   EXPECT_EQ(list_station_use(library_, {other_}).size(), 1U);
   EXPECT_TRUE(list_station_use(library_, {}).empty());
 }

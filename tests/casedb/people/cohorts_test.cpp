@@ -274,6 +274,17 @@ TEST_F(CohortsTest, AResearchersWorkOnAStudyEnds) {
   EXPECT_TRUE(is_researcher_of(library_, study, rita_)) << "and begins again";
 }
 
+TEST_F(CohortsTest, NoMoreProceduresAreIndependentThanThereWere) {
+  EXPECT_EQ(code(give_facts(library_, tina_, {{"logbook_total", "3"}, {"logbook_independent", "9"}})),
+            "bad_answer");
+  ASSERT_TRUE(give_facts(library_, tina_, {{"logbook_total", "9"}, {"logbook_independent", "9"}}));
+  EXPECT_EQ(code(give_fact(library_, tina_, "logbook_total", "3")), "bad_answer") << "beside what was said before";
+  ASSERT_TRUE(give_facts(library_, tina_, {{"logbook_total", "10"}, {"logbook_independent", "2"}}));
+  EXPECT_EQ(newest_facts(list_facts(library_, tina_)).at("logbook_total").answer, "10")
+      << "as numbers, not as words";
+  ASSERT_TRUE(give_fact(library_, tina_, "confidence", "4"));
+}
+
 TEST_F(CohortsTest, FactsAreStoredAllOrNone) {
   EXPECT_EQ(code(give_facts(library_, tina_, {{"confidence", "4"}, {"handedness", "up"}})), "bad_answer");
   EXPECT_TRUE(list_facts(library_, tina_).empty());

@@ -86,6 +86,11 @@ TEST_F(StudiesTest, ADraftIsReplacedAndAFrozenPlanStays) {
   EXPECT_EQ(first->seed, "") << "drawn at the freeze";
   const auto second = store_plan(library_, study_id_, plan_of(study::sample_plan_json(R"(, "alpha": 0.01)")));
   EXPECT_NE(second->body_hash, first->body_hash);
+  std::string unanswered = second->body;
+  unanswered.replace(unanswered.find("\"decision\":\"d\""), 14, "\"decision\":\"REPLACE: what is decided?\"");
+  ASSERT_TRUE(store_plan(library_, study_id_, unanswered));
+  EXPECT_EQ(code(freeze_plan(library_, study_id_)), "bad_study_plan") << "words of the template";
+  ASSERT_TRUE(store_plan(library_, study_id_, second->body));
   const auto frozen = freeze_plan(library_, study_id_);
   ASSERT_TRUE(frozen);
   EXPECT_TRUE(frozen->frozen());
@@ -116,7 +121,20 @@ TEST_F(StudiesTest, SimulatedPeopleTakePartInStudiesOfSimulatedPeopleAlone) {
   EXPECT_FALSE(consenting_people(library_, other).contains(simulated)) << "no plan yet";
   ASSERT_TRUE(store_plan(library_, other, plan_of(study::sample_plan_json(R"(, "people": "simulated")"))));
   ASSERT_TRUE(freeze_plan(library_, other));
-  EXPECT_EQ(code(enrol_in_study(library_, other, real)), "no_consent");
+  EXPECT_EQ(code(enrol_in_study(library_, other, real)), "real_person");
+  // Consent to research with the library covers studies of real people, and makes nobody a simulated one.
+  ASSERT_TRUE(add_consent_text(library_, std::nullopt, "May research use your attempts?"));
+  for (const Consent& one : list_consents(library_, real))
+    if (!one.study_id) {
+      ASSERT_TRUE(give_consent(library_, real, one.text_id));
+    }
+  ASSERT_TRUE(consenting_people(library_, other).contains(real));
+  EXPECT_EQ(code(enrol_in_study(library_, other, real)), "real_person");
+  const StoredPlan plan = *find_plan(library_, other);
+  EXPECT_EQ(people_asked(library_, plan), (std::set<std::string>{simulated}));
+  EXPECT_EQ(blinded_counts(library_, plan).consenting, 1U);
+  EXPECT_EQ(study_data(library_, plan).flow.consenting, 1U);
+  EXPECT_TRUE(people_asked(library_, *find_plan(library_, study_id_)).contains(real));
   const auto enrolled = enrol_in_study(library_, other, simulated);
   ASSERT_TRUE(enrolled) << enrolled.error().text;
   EXPECT_EQ(enrolled->pseudonym.substr(0, 2), "S-");

@@ -116,7 +116,8 @@ TEST_F(RatingCommands, OfAStudyWhosePlanIsADraftNothingIsExportedToItsResearcher
   fixtures::run(std::string(fixtures::kProgram) + " study template --library '" + library_.path() + "' --case " +
                     case_id + " --out '" + at("plan.json") + "'",
                 library_.folder());
-  library_.done("study plan Needles " + at("plan.json") + " --by rita");
+  std::ofstream(at("answered.json")) << fixtures::answered(fixtures::whole_file(at("plan.json")));
+  library_.done("study plan Needles " + at("answered.json") + " --by rita");
   const std::string attempt = library_.ask("attempt list")["attempts"][0]["attempt_id"];
   const std::string code = library_.ask("rating open osats-grs --title Spring --study Needles --attempt " +
                                         attempt + " --by rita")["code"];
@@ -140,7 +141,7 @@ TEST_F(RatingCommands, SimulatedAnswersSayThatTheyAre) {
   fixtures::run(std::string(fixtures::kProgram) + " study template --library '" + library_.path() +
                     "' --case 'Drill 1' --out '" + at("plan.json") + "'",
                 library_.folder());
-  std::string plan = fixtures::whole_file(at("plan.json"));
+  std::string plan = fixtures::answered(fixtures::whole_file(at("plan.json")));
   const std::string people = "\"people\": \"real\"";
   ASSERT_NE(plan.find(people), plan.npos);
   std::ofstream(at("simulated.json")) << plan.replace(plan.find(people), people.size(),

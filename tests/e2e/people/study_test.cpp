@@ -1,5 +1,6 @@
-// A study from its draft to its report by the built program, on simulated operators in the names of people: what is
-// told before the freeze, what each look leaves behind, and that nobody who has gone is in the next report.
+// A study from its draft to its report by the built program, of simulated people, and of people whose attempts an
+// operator made: what is told before the freeze, what each look leaves behind, and that nobody who has gone is in
+// the next report.
 #include <fstream>
 
 #include "casedb/attempts/attempts.h"
@@ -64,12 +65,13 @@ class StudyCommands : public testing::Test {
                 *person);
       }
   }
-  // The same attempt again, as a simulated one in the person's name.
+  // The same attempt again, as if the person had made it.
   static void store(casedb::Library& library, const std::string& attempt_id, const std::string& person_id) {
     const auto row = casedb::find_attempt(library, attempt_id);
     casedb::NewAttempt made;
     static_cast<casedb::AttemptHead&>(made) = *row;
     made.person_id = person_id;
+    made.operator_name = casedb::kPersonOperator;
     made.started_us = row->started_us;
     made.end = row->end;
     made.metrics = row->metrics;
@@ -86,10 +88,10 @@ class StudyCommands : public testing::Test {
       ASSERT_TRUE(casedb::give_consent(*library, one.person_id, asked.at(0).text_id));
     }
   }
-  Json plan() {
+  Json plan(const char* people = "simulated") {
     library_.done("study template --case " + case_id_ + " --out " + at("template.json"));
-    Json plan = Json::parse(fixtures::whole_file(at("template.json")));
-    plan["people"] = "simulated";
+    Json plan = Json::parse(fixtures::answered(fixtures::whole_file(at("template.json"))));
+    plan["people"] = people;
     plan["stopping"]["per_group"] = 5;
     return plan;
   }
@@ -115,6 +117,12 @@ TEST_F(StudyCommands, SimulatedPeopleAreEnrolledAndSaidToBeSimulated) {
   EXPECT_NE(fixtures::whole_file(at("validity.html")).find("SIMULATED"), std::string::npos);
   library_.done("export --study Needles --raw none --out " + at("table"));
   EXPECT_NE(fixtures::whole_file(library_.folder() / "table" / "attempts.csv").find(",S-"), std::string::npos);
+  // An export has every simulated person; of a study of real people none of them has an outcome.
+  library_.done("study new Real");
+  library_.done("study plan Real " + file_of(plan("real")));
+  library_.done("export --study Real --raw none --out " + at("real"));
+  EXPECT_EQ(library_.ask("study show Real")["looks"].at(0)["people"], 0);
+  EXPECT_EQ(library_.ask("study show Needles")["looks"].back()["people"], 16);
 }
 
 TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
@@ -124,10 +132,10 @@ TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
     if (i > 0) consent("expert-" + std::to_string(i));
   }
   EXPECT_EQ(refusal("study look Needles --by rita"), "no_plan");
-  Json draft = plan();
+  Json draft = plan("real");
   draft["primary"][0]["metric"] = "no_such";
   EXPECT_EQ(refusal("study plan Needles " + file_of(draft) + " --by rita"), "bad_study_plan");
-  const Json stored = library_.ask("study plan Needles " + file_of(plan()) + " --by rita");
+  const Json stored = library_.ask("study plan Needles " + file_of(plan("real")) + " --by rita");
   EXPECT_TRUE(stored["frozen_us"].is_null());
 
   // A draft: counts of all together, by nobody's group, and no rows.
@@ -141,13 +149,18 @@ TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
   EXPECT_EQ(refusal("export --study Needles --by rita --out " + at("early")), "blinded");
   EXPECT_EQ(refusal("study enrol Needles --user novice-0"), "plan_not_frozen");
   EXPECT_EQ(refusal("study freeze Needles --by mona"), "not_allowed");
+  draft = plan("real");
+  draft["decision"] = "REPLACE: what is decided by them, and about whom?";
+  library_.done("study plan Needles " + file_of(draft) + " --by rita");
+  EXPECT_EQ(refusal("study freeze Needles --by rita"), "bad_study_plan");
+  library_.done("study plan Needles " + file_of(plan("real")) + " --by rita");
   library_.done("export --study Needles --raw none --out " +
                 at("operators"));  // who has the files, and it is noted
 
   const Json frozen = library_.ask("study freeze Needles --by rita");
   EXPECT_EQ(frozen["plan_sha256"], stored["plan_sha256"]);
   EXPECT_GT(frozen["frozen_us"].get<std::int64_t>(), 0);
-  EXPECT_EQ(refusal("study plan Needles " + file_of(plan()) + " --by rita"), "plan_frozen");
+  EXPECT_EQ(refusal("study plan Needles " + file_of(plan("real")) + " --by rita"), "plan_frozen");
   EXPECT_EQ(refusal("study enrol Needles --user expert-0 --by adam"), "no_consent");
   EXPECT_EQ(library_.ask("study enrol Needles --all --by rita")["enrolments"].size(),
             static_cast<std::size_t>(2 * kPeople - 1));
@@ -168,13 +181,12 @@ TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
   EXPECT_EQ(refusal("study lock Needles --by rita"), "data_locked");
   library_.done("report validity --study Needles --by rita --out " + at("report.html"));
   const std::string page = fixtures::whole_file(at("report.html"));
-  for (const std::string& told :
-       {std::string("SIMULATED"), frozen["plan_sha256"].get<std::string>(), look["data_sha256"].get<std::string>(),
-        std::string("those that are analysed here"), std::string("study look"), std::string("report validity"),
-        std::string("export before the freeze"), std::string("The second day was a Tuesday"),
-        std::string("missing")})
+  for (const std::string& told : {frozen["plan_sha256"].get<std::string>(), look["data_sha256"].get<std::string>(),
+                                  std::string("those that are analysed here"), std::string("study look"),
+                                  std::string("report validity"), std::string("export before the freeze"),
+                                  std::string("The second day was a Tuesday"), std::string("missing")})
     EXPECT_NE(page.find(told), std::string::npos) << told;
-  for (const char* outside : {"http://", "https://", "<script", "src=", "novice-0"})
+  for (const char* outside : {"http://", "https://", "<script", "src=", "novice-0", "SIMULATED"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   EXPECT_EQ(library_.ask("study show Needles --by rita")["looks"].size(), 3U);
 

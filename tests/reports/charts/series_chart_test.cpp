@@ -32,6 +32,24 @@ TEST(RoundTicks, HoldTheValuesInFewRoundSteps) {
   }
 }
 
+TEST(RoundTicks, OfCountsAreWhole) {
+  EXPECT_THAT(round_ticks(1.0, 1.0, 1.0), ElementsAre(0.0, 1.0, 2.0));
+  EXPECT_THAT(round_ticks(0.0, 3.0, 1.0), ElementsAre(0.0, 1.0, 2.0, 3.0));
+  EXPECT_THAT(round_ticks(0.0, 30.0, 1.0), ElementsAre(0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0));
+}
+
+TEST(SeriesChart, TicksAreWrittenInTheUnitThatIsShown) {
+  SeriesChart chart;
+  chart.points = {{1.0, 0.2}, {2.0, 0.8}};
+  chart.y_label = "%";
+  chart.y_shown = 100.0;
+  chart.y_low = 0.0;
+  chart.y_high = 1.0;
+  const std::string svg = series_chart(chart).str();
+  EXPECT_THAT(svg, HasSubstr(">80</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr(">0.8</text>")));
+}
+
 TEST(SeriesChart, LeavesOutWhatIsNoNumber) {
   SeriesChart chart{"said <x>",
                     "attempt",

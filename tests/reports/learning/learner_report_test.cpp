@@ -48,6 +48,31 @@ TEST(LearnerReport, TellsTheCourseWithItsRules) {
   EXPECT_EQ(page, learner_report_page(report_of("FFF-FPFPPPPPPPPPPP"))) << "the same report, the same bytes";
 }
 
+// Two passes running take two attempts; what one alone would show of them is nothing.
+TEST(LearnerReport, TellsHowWeakTwoRunningAreFromTwoAttemptsOn) {
+  EXPECT_THAT(learner_report_page(report_of("P")), Not(HasSubstr("attempts with a probability of")));
+  EXPECT_THAT(learner_report_page(report_of("PF")), HasSubstr("within 2 attempts with a probability of 0.25"));
+}
+
+// The axis has the unit of the limit beside it, and a count no fraction.
+TEST(LearnerReport, ChartsHaveTheUnitsOfTheirLimits) {
+  LearnerItem item = item_of("PPP");
+  const auto ask = [&](const char* id, double limit, double value) {
+    const assessment::MetricInfo* info = assessment::find_metric(id);
+    item.rule.criteria = {{info->id, info->version, assessment::Comparison::at_most, limit}};
+    for (auto& one : item.attempts) one.metrics = {{info->id, info->version, value, info->unit, ""}};
+    return learning_charts(item).str();
+  };
+  const std::string shares = ask("advance_visible_share", 0.8, 0.3);
+  EXPECT_THAT(shares, HasSubstr(">%</text>"));
+  EXPECT_THAT(shares, HasSubstr(">80</text>"));
+  EXPECT_THAT(shares, Not(HasSubstr(">share</text>")));
+  const std::string counts = ask("skin_punctures", 1.0, 1.0);
+  EXPECT_THAT(counts, Not(HasSubstr(">0.95</text>")));
+  EXPECT_THAT(counts, HasSubstr(">2</text>"));
+  EXPECT_THAT(counts, Not(HasSubstr(">count</text>")));
+}
+
 TEST(LearnerReport, SaysWhyThereIsNoNumber) {
   const std::string page = learner_report_page(report_of("-"));
   EXPECT_THAT(page, HasSubstr("Not estimated: there is no value"));

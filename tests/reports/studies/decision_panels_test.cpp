@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assessment/registry.h"
+#include "reports/studies/outcome_table.h"
 #include "reports/studies/validity_sections.h"
 #include "sim/base/rng.h"
 
@@ -38,9 +39,23 @@ ValidityReport report_with(double error_mm, std::size_t attempts = 2) {
   return report;
 }
 
+// The legend tells of a band only where one is drawn.
+TEST(Conclusions, TellOfTheBandWhereItIsDrawn) {
+  ValidityReport report = report_with(1.0);
+  study::Compared& one = report.result.primary.front();
+  one.answer.estimate = 0.7;
+  one.outcome.test = study::Test::brunner_munzel;
+  EXPECT_FALSE(draws_worthwhile(report.result.primary));
+  EXPECT_THAT(conclusions_section(report).str(), Not(HasSubstr("grey band")));
+  one.outcome.test = study::Test::welch;
+  EXPECT_TRUE(draws_worthwhile(report.result.primary));
+  EXPECT_THAT(conclusions_section(report).str(), HasSubstr("no difference; the grey band"));
+}
+
 TEST(InternalStructure, TellsAgreementAndError) {
   const std::string sound = internal_structure_panel(report_with(0.01)).str();
   EXPECT_THAT(sound, HasSubstr("<td>20</td><td>1.00"));
+  EXPECT_THAT(sound, HasSubstr("<div class=\"wide\"")) << "a narrow page scrolls it and cuts nothing off";
   EXPECT_THAT(sound, HasSubstr("<td>0.0"));
   const std::string noisy = internal_structure_panel(report_with(20.0)).str();
   EXPECT_THAT(noisy, Not(HasSubstr("<td>1.00")));

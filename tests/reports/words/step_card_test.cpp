@@ -54,6 +54,16 @@ TEST(StepCardTest, OfAnUnknownStepSaysThatItIsUnknown) {
   EXPECT_NE(card.definition.find("does not know"), std::string::npos);
 }
 
+// Before, who met no bone and did not reach the target was told of "Keep off bone": "never done".
+TEST(StepCardTest, WhatIsDoneAtTheTargetIsLeftOutForWantOfIt) {
+  StepResult step = result(StepState::skipped);
+  EXPECT_EQ(step_result_text(step), "– left out: never done");
+  step.id = "keep_off_bone";
+  EXPECT_EQ(step_result_text(step), "– left out: the target was not reached");
+  step.t_s = 4.0;
+  EXPECT_EQ(step_result_text(step).find("not reached"), std::string::npos) << "too late is told as that";
+}
+
 TEST(StepCardTest, WhatWentWrongSaysWhatItWas) {
   const auto of = [](const char* id, StepState state, std::optional<double> t_s) {
     StepResult step = result(state, t_s);
