@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
 
@@ -94,6 +95,7 @@ SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std
 
 std::string difference(const SurrogateMark& one, const SurrogateMark& other) {
   if (one.people_version != other.people_version) return "another model of people";
+  if (one.operator_version != other.operator_version) return "other operators";
   if (one.step_version != other.step_version) return "another version of the simulation's step";
   if (one.case_id != other.case_id || one.case_title != other.case_title || one.case_mark != other.case_mark)
     return "another case, or the case has changed since";
@@ -106,6 +108,19 @@ std::string difference(const SurrogateMark& one, const SurrogateMark& other) {
 bool is_whole(const std::string& metric) {
   const MetricInfo* info = find_metric(metric);
   return info == nullptr || info->estimand.scale == Scale::count || info->estimand.scale == Scale::yes_no;
+}
+
+bool add_once(const std::vector<SimulatedPoint>& more, std::vector<SimulatedPoint>& points) {
+  std::map<Place, std::size_t> known;  // of one place is the same person on the same occasion
+  for (std::size_t p = 0; p < points.size(); ++p) known.emplace(points[p].place, p);
+  for (const SimulatedPoint& one : more) {
+    const auto [at, is_new] = known.emplace(one.place, points.size());
+    if (is_new)
+      points.push_back(one);
+    else if (points[at->second].values != one.values)
+      return false;
+  }
+  return true;
 }
 
 base::Result<Surrogate> Surrogate::fit(SurrogateMark mark, std::vector<SimulatedPoint> points) {

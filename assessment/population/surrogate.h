@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assessment/metrics/metric.h"
+#include "assessment/operators/profile.h"
 #include "assessment/population/person.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -24,7 +25,7 @@ Place place_of(const Person& person, const Occasion& occasion);
 
 // Of what a surrogate is. Two of different marks are different things.
 struct SurrogateMark {
-  int people_version = kPeopleVersion;
+  int people_version = kPeopleVersion, operator_version = kOperatorVersion;
   std::uint32_t step_version = 0;
   std::string case_id, case_title, case_mark;  // the mark is of the case's content
   struct Metric {
@@ -50,6 +51,9 @@ struct SimulatedPoint {
   Place place{};
   Values values;
 };
+
+// Adds those that are not there yet; false: one is, and measured otherwise, so that the two are of different laws.
+bool add_once(const std::vector<SimulatedPoint>& more, std::vector<SimulatedPoint>& points);
 
 class Surrogate {
  public:

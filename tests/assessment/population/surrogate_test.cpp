@@ -51,6 +51,19 @@ TEST(Surrogate, AttemptsThatItWasFittedToAreKnownAgain) {
   EXPECT_TRUE(was_fitted_to(fitted(), some));
 }
 
+// Parts may overlap, and a part that was made by other laws is no part.
+TEST(Surrogate, PartsAddUpToWhatAllOfThemAre) {
+  const std::vector<SimulatedPoint> all = attempts_of({0.0, 1.2}, 77, 90);
+  std::vector<SimulatedPoint> added;
+  EXPECT_TRUE(add_once({all.begin(), all.begin() + 50}, added));
+  EXPECT_TRUE(add_once({all.begin() + 20, all.end()}, added));
+  ASSERT_EQ(added.size(), all.size());
+  for (std::size_t p = 0; p < all.size(); ++p) EXPECT_EQ(added[p].values, all[p].values);
+  std::vector<SimulatedPoint> other = {all[7]};
+  other[0].values[known_mark().metrics.size() - 1] = 123.0;
+  EXPECT_FALSE(add_once(other, added));
+}
+
 TEST(Surrogate, AWrongOneIsFoundOut) {
   // Of attempts in which ability does the opposite.
   std::vector<SimulatedPoint> points = attempts_of({0.0, 1.2}, 1, 2000);
@@ -207,11 +220,12 @@ TEST(Surrogate, ItsFileDrawsTheSame) {
 
 TEST(Surrogate, AFileOfSomethingElseIsRefused) {
   const std::string good = fitted().to_json();
-  for (const std::string& bad :
-       {std::string("[]"), std::string("{"), std::string(R"({"surrogate": 1})"), good.substr(0, good.size() / 2),
-        std::string(
-            R"({"surrogate":1,"people_version":1,"step_version":1,"case_id":"c","case":"a","case_mark":"b",)") +
-            R"("metrics":[["hit",1]],"attempts":[[0,0,0,0,0,1]]})"}) {
+  for (
+      const std::string& bad :
+      {std::string("[]"), std::string("{"), std::string(R"({"surrogate": 1})"), good.substr(0, good.size() / 2),
+       std::string(
+           R"({"surrogate":1,"people_version":1,"operator_version":1,"step_version":1,"case_id":"c","case":"a","case_mark":"b",)") +
+           R"("metrics":[["hit",1]],"attempts":[[0,0,0,0,0,1]]})"}) {
     const auto refused = Surrogate::from_json(bad);
     ASSERT_FALSE(refused.has_value()) << bad.substr(0, 80);
     EXPECT_EQ(refused.error().code, "bad_surrogate");
@@ -238,6 +252,9 @@ TEST(Surrogate, AnyDifferenceOfItsMarkIsTold) {
   EXPECT_EQ(other.metrics.at(sight).version, mark.metrics.at(sight).version - 1);
   other = mark;
   ++other.people_version;
+  EXPECT_NE(difference(mark, other), "");
+  other = mark;
+  ++other.operator_version;
   EXPECT_NE(difference(mark, other), "");
 }
 
