@@ -1,7 +1,8 @@
 // What a simulated person's attempt at a case would measure, drawn in microseconds instead of simulated in seconds:
-// of attempts that were simulated whole, a response surface over abilities and strategy, and around it what those
-// attempts left over, whole, so that metrics hang together, and are null together, as they did. It is of one case,
-// one model of people and one version of each metric, and refused for any other.
+// one of the attempts that were simulated whole, of about those abilities and strategy, so that metrics hang
+// together, and are null together, as they did; what is measured, not counted, is moved by a response surface over
+// the rest of the way. It is of one case, one model of people and one version of each metric, and refused for any
+// other.
 #pragma once
 
 #include <array>
@@ -76,18 +77,21 @@ class Surrogate {
 
  private:
   Surrogate() = default;
+  void fit_places();
   void fit_surfaces();
-  std::size_t near(const Place& place, std::uint64_t stream) const;
+  Place centre_for(const Place& place) const noexcept;
+  std::size_t near(const Place& centre, std::uint64_t stream) const;
   Values moved(std::size_t from, const Place& to) const;
 
-  struct Surface {
+  struct Surface {  // empty for counts, yes and no
     std::vector<double> coefficients;
     std::vector<double> scores;  // of each point: the normal score of its value; 0: it has none
     std::vector<double> sorted;  // the values
-    bool between = false;        // values between those that were seen are possible
   };
   SurrogateMark mark_;
   std::vector<SimulatedPoint> points_;
+  Place mean_{};
+  std::array<Place, kAxes> inverse_covariance_{};
   std::vector<Surface> surfaces_;
 };
 

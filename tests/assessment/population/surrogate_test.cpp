@@ -170,6 +170,49 @@ TEST(Surrogate, FollowsAbilityByTheRightAmount) {
   EXPECT_NEAR(mean[0.8] - mean[0.0], -0.32, 3.0 * std::hypot(0.72 * std::sqrt(2.0 / 18'000.0), 0.8 * 0.013));
 }
 
+// Attempts of kinds: who draws back n times goes 60 + 110 n mm, give or take 4. The able draw back less. Where
+// counts were moved apart from ways, ways would lie between the kinds, and the two would hang together less.
+TEST(Surrogate, KindsOfAttemptsStayKinds) {
+  const SurrogateMark mark = known_mark();
+  const auto of_kinds = [&](const std::vector<double>& shifts, std::uint64_t seed, std::size_t count) {
+    std::vector<SimulatedPoint> points = attempts_of(shifts, seed, count);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const auto drawn = [&](std::uint64_t what) { return stream_of(seed, Drawn::attempt, p, what); };
+      const double mean = std::exp(-0.4 * points[p].place[1]);
+      double n = 0.0;  // Poisson's, by the time that lies between two
+      for (double t = -std::log(uniform_of(drawn(0))); t < mean && n < 9.0; n += 1.0)
+        t -= std::log(uniform_of(drawn(1 + static_cast<std::uint64_t>(n))));
+      for (std::size_t m = 0; m < mark.metrics.size(); ++m) {
+        points[p].values[m].reset();
+        if (mark.metrics[m].id == "withdrawals_partial") points[p].values[m] = n;
+        if (mark.metrics[m].id == "path_in_tissue")
+          points[p].values[m] = 60.0 + 110.0 * n + 4.0 * normal_of(drawn(99));
+      }
+    }
+    return points;
+  };
+  const auto surrogate = Surrogate::fit(mark, of_kinds({-0.6, 0.0, 0.6, 1.2, 1.8}, 1, 3000));
+  const std::size_t count = surrogate->index_of("withdrawals_partial"), way = surrogate->index_of("path_in_tissue");
+  for (const double shift : {0.0, 1.2}) {
+    const auto held_out = of_kinds({shift}, 77, 2000);
+    const auto agreement = agreement_of(*surrogate, held_out, 10, 3);
+    EXPECT_EQ(agreement.pairs, 1U);
+    EXPECT_LT(agreement.worst_rank_correlation, 0.03) << shift;
+    EXPECT_EQ(agreement.beyond_chance.quantiles, 0U) << shift;
+    double whole = 0.0, drawn = 0.0, between = 0.0;
+    for (std::size_t p = 0; p < held_out.size(); ++p) {
+      const Values values = surrogate->draw(held_out[p].place, stream_of(9, Drawn::surrogate, p));
+      whole += *held_out[p].values[count];
+      drawn += *values[count];
+      between += std::abs(*values[way] - 60.0 - 110.0 * *values[count]) > 20.0 ? 1.0 : 0.0;
+    }
+    const auto n = static_cast<double>(held_out.size());
+    EXPECT_NEAR(drawn / n, whole / n, 0.08)
+        << shift;  // three errors of 2,000 and 3,000 with a variance of about .8
+    EXPECT_LT(between / n, 0.08) << shift;
+  }
+}
+
 TEST(Surrogate, PeopleOfTwoGroupsAreNobodysTwins) {
   const std::size_t distance = fitted().index_of("tip_target_dist"), time = fitted().index_of("time_total");
   for (const std::size_t metric : {distance, time}) {
