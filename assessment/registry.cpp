@@ -1,5 +1,6 @@
 #include "assessment/registry.h"
 
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -123,9 +124,7 @@ const MetricInfo* find_metric(const std::string& id) {
 }
 
 int version_of(const MetricInfo& info, cases::SightLaw law) noexcept {
-  const bool before_echo = law < cases::SightLaw::echo, before_scatter = law < cases::SightLaw::scatter;
-  return info.version - (info.by_sight != BySight::no && before_echo ? 1 : 0) -
-         (info.by_sight == BySight::since_scatter && before_scatter ? 1 : 0);
+  return info.version - std::popcount(info.by_sight >> (static_cast<unsigned>(law) + 1U));
 }
 
 std::vector<MetricValue> measure_all(const Signals& signals) {

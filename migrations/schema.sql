@@ -711,13 +711,13 @@ CREATE TABLE training_case (
   CHECK (audience IN ('everyone', 'own_cohort')), face_state TEXT NOT NULL DEFAULT 'unchecked'
   CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')), burned_in_checked_us INTEGER, burned_in_checked_by TEXT REFERENCES person (person_id) ON DELETE SET NULL
   CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL), breath_period_s REAL NOT NULL DEFAULT 4.0 CHECK (breath_period_s BETWEEN 1 AND 20), breath_irregularity REAL NOT NULL DEFAULT 0.1
-  CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom')), burned_in_by_operator INTEGER CHECK (burned_in_by_operator IN (0, 1)), breath_law TEXT NOT NULL DEFAULT 'equal_holds'
-  CHECK (breath_law IN ('equal_holds', 'drifting_holds')), ct_breath TEXT NOT NULL DEFAULT 'expiration'
+  CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom')), burned_in_by_operator INTEGER CHECK (burned_in_by_operator IN (0, 1)), ct_breath TEXT NOT NULL DEFAULT 'expiration'
   CHECK (ct_breath IN ('expiration', 'inspiration')), breath_depth REAL NOT NULL DEFAULT 0.0
   CHECK (breath_depth BETWEEN 0 AND 3), probe_is_chosen INTEGER NOT NULL DEFAULT 0 CHECK (probe_is_chosen IN (0, 1)), instrument_tip TEXT NOT NULL DEFAULT 'bevel'
   CHECK (instrument_tip IN ('bevel', 'diamond', 'trocar', 'core')), touch_law TEXT NOT NULL DEFAULT 'steady'
   CHECK (touch_law IN ('steady', 'by_speed', 'organs_move')), sight_law TEXT NOT NULL DEFAULT 'half_slice'
-  CHECK (sight_law IN ('half_slice', 'echo', 'scatter', 'clutter'))) STRICT;
+  CHECK (sight_law IN ('half_slice', 'echo', 'scatter', 'clutter')), breath_law TEXT NOT NULL DEFAULT 'equal_holds'
+  CHECK (breath_law IN ('equal_holds', 'drifting_holds', 'sliding_organs'))) STRICT;
 
 CREATE TABLE trusted_key (
   public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),

@@ -96,6 +96,7 @@ base::Result<ColourPicture> paint_room(const Scene& scene, const std::string& li
   options.mentor = view.mentor;
   options.needle = scene.inserted.needle.has_value();
   options.probe = view.probe.has_value();
+  if (view.nick_lps_mm) options.nicks_lps_mm = {&*view.nick_lps_mm, 1};
   imaging::DrawList list;
   imaging::make_draw_list(room, *built, state, options, list);
   imaging::RoomPicture asked;

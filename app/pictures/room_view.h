@@ -33,7 +33,8 @@ struct RoomSceneView {
   std::optional<bool> fine;                        // nothing: as this GL is
   std::optional<cases::PatientPosition> position;  // nothing: the case's, else supine
   std::optional<HeldProbe> probe;
-  std::optional<cases::CArm> arm;  // a room with a C-arm
+  std::optional<glm::dvec3> nick_lps_mm;  // where the skin was nicked
+  std::optional<cases::CArm> arm;         // a room with a C-arm
 };
 
 struct ColourPicture {

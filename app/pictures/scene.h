@@ -54,7 +54,8 @@ using View = std::variant<imaging::MprView, XrayView, UltrasoundSceneView>;
 struct SceneMotion {
   double breath_level = 0.0;  // 0 breathed out, 1 breathed in
   std::optional<glm::dvec3>
-      breath_mm{};        // at 1, where it is most: to the right, to the front, downwards; as cases have it
+      breath_mm{};             // at 1, where it is most: to the right, to the front, downwards; as cases have it
+  bool breath_slides = false;  // organs, along the wall (docs/decisions/0095)
   double press_mm = 0.0;  // how deep the probe's head stands in the skin at rest, along its axis; ultrasound only
   double beat_s = 0.0;  // since a heart beat began: so blood flows, and so wide are drawn arteries; ultrasound only
   double drag_mm = 0.0;  // how far the needle's shaft takes tissue along; < 0 on the way out

@@ -243,6 +243,7 @@ SceneMotion read_motion(const Json& json, base::Error& error, std::vector<std::s
   SceneMotion motion;
   motion.breath_level = reader.number("breath_level", -1.0, 2.0, 0.0);
   if (reader.has("breath_mm")) motion.breath_mm = reader.point("breath_mm", -50.0, 50.0);
+  motion.breath_slides = reader.flag("breath_slides", false);
   motion.press_mm = reader.number("press_mm", 0.0, 50.0, 0.0);
   motion.beat_s = reader.number("beat_s", 0.0, 1e4, 0.0);
   motion.drag_mm = reader.number("drag_mm", -10.0, 10.0, 0.0);

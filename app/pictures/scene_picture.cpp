@@ -290,6 +290,7 @@ base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
   imaging::show_organs(volume_, *classes, echogenicity);
   auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
   std::optional<tissue::BreathRegion> trunk;
+  std::optional<tissue::CavityWall> wall;
   cases::MeshIndex index;
   if (skin) {
     index = cases::MeshIndex(*skin);
@@ -298,8 +299,9 @@ base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
     patient.classes = *classes;
     patient.skin = std::move(*skin);
     trunk = tissue::breath_region(patient);
+    wall = tissue::cavity_wall(patient);
   }
-  tissue_ = Tissue{std::move(*classes), std::move(echogenicity), std::move(index), trunk};
+  tissue_ = Tissue{std::move(*classes), std::move(echogenicity), std::move(index), trunk, wall};
   return {};
 }
 
@@ -308,8 +310,9 @@ tissue::Displacement ScenePainter::displacement_of(const Scene& scene) const {
   const SceneMotion& motion = *scene.motion;
   tissue::Causes causes;
   if (tissue_->trunk && motion.breath_level != 0.0)
-    causes.breath = tissue::Breath{
-        *tissue_->trunk, motion.breath_level * motion.breath_mm.value_or(cases::Breathing{}.amplitude_mm)};
+    causes.breath = tissue::Breath{*tissue_->trunk,
+                                   motion.breath_level * motion.breath_mm.value_or(cases::Breathing{}.amplitude_mm),
+                                   motion.breath_slides && tissue_->wall ? &*tissue_->wall : nullptr};
   tissue::SkinPress press;
   if (const auto* view = std::get_if<UltrasoundSceneView>(&*scene.view); view != nullptr && motion.press_mm > 0.0) {
     press.at_lps_mm = view->view.origin_lps_mm - motion.press_mm * view->view.axial;

@@ -58,6 +58,7 @@ RoomSceneView read_room(const Json& json, base::Error& error, std::vector<std::s
     const std::string position = reader.choice("position", names, nullptr);
     view.position = *base::from_name(cases::kPatientPositionNames, position);
   }
+  if (reader.has("nick_mm")) view.nick_lps_mm = reader.point("nick_mm");
   if (reader.has("probe")) view.probe = read_held_probe(reader["probe"], error, unused);
   if (reader.has("arm")) view.arm = read_arm(reader["arm"], error, unused);
   if (view.probe && view.arm) reader.bad("arm", "stands beside probe");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "assessment/signals/needs.h"
+#include "sim/case/case.h"
 
 namespace seldinger::assessment {
 
@@ -62,13 +63,15 @@ enum Law : std::uint32_t {
   kNothingIsNothing = 1U << 8U,  // who does nothing has no value
 };
 
-// Which laws of sight made another version of it: in a case of an older one it is the version of then, for good
-// (version_of).
-enum class BySight {
-  no,
-  since_echo,    // it asks for a hit, or what pictures under a probe showed
-  since_scatter  // it asks what pictures of any kind showed: there is one for each law
-};
+// Laws of sight, or-ed, that made another version of it: in a case of an older one it is the version of then, for
+// good (version_of).
+constexpr std::uint32_t since(cases::SightLaw law) noexcept {
+  return 1U << static_cast<unsigned>(law);
+}
+constexpr std::uint32_t kAsksForHit = since(cases::SightLaw::echo);
+constexpr std::uint32_t kAsksForShaft = since(cases::SightLaw::clutter);      // for any of the needle
+constexpr std::uint32_t kAsksForProbesPicture = kAsksForHit | kAsksForShaft;  // what pictures under a probe showed
+constexpr std::uint32_t kAsksForAnyPicture = kAsksForProbesPicture | since(cases::SightLaw::scatter);
 
 struct MetricInfo {
   const char* id;
@@ -84,7 +87,7 @@ struct MetricInfo {
   Estimand estimand{};
   std::uint32_t laws = 0;    // Law, or-ed
   const char* history = "";  // what each older version did otherwise: "1: ..."
-  BySight by_sight = BySight::no;
+  std::uint32_t by_sight = 0;
 };
 
 }  // namespace seldinger::assessment

@@ -15,6 +15,8 @@ namespace seldinger::assessment {
 // What the versions of older laws of sight did otherwise.
 #define SELDINGER_BY_HALF_SLICE \
   ": what pictures showed by the law half_slice, as cases of that law have it still (decision 0057)."
+#define SELDINGER_WITHOUT_CLUTTER \
+  ": without clutter in ultrasound, as cases of the law scatter and before have it still (decision 0090)."
 #define SELDINGER_BY_ECHO \
   ": without what is scattered under X-rays, as cases of the law echo have it still (decision 0082)."
 

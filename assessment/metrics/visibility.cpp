@@ -81,13 +81,13 @@ constexpr std::uint32_t kShares =
     kAnyPlace | kAtAnySpeed | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 
 constexpr MetricInfo kVisibilityMetrics[] = {
-    {"vis_joint", 4, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
+    {"vis_joint", 5, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kSkin | kPictures, "As vis_needle, for tip and target at once. Null: as vis_target.",
      kVidal, &share<&Shares::joint_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_BY_HALF_SLICE
-     " 3" SELDINGER_BY_ECHO,
-     BySight::since_scatter},
-    {"vis_needle", 4, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
+     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
+     kAsksForAnyPicture},
+    {"vis_needle", 5, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Share of the time in tissue in which a live picture showed the needle's tip. A frozen picture shows nothing, "
      "and "
@@ -96,14 +96,15 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "under_1_s_in_tissue_with_a_live_picture).",
      kVidal, &share<&Shares::needle_s, Shown::needle>, kMedianShare, kShares,
      "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_BY_HALF_SLICE
-     " 3" SELDINGER_BY_ECHO,
-     BySight::since_scatter},
-    {"vis_shaft", 2, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
+     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
+     kAsksForAnyPicture},
+    {"vis_shaft", 3, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "As vis_needle, for any part of the needle: shown without its tip, it misleads. Null: as vis_needle.",
      kJohnson, &share<&Shares::shaft_s, Shown::needle>, kMedianShare, kShares,
-     "1: of the time with a live picture alone: to freeze it took bad time out."},
-    {"vis_target", 4, "share", "Target visible", Group::picture, Direction::higher_is_better,
+     "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
+     kAsksForShaft},
+    {"vis_target", 5, "share", "Target visible", Group::picture, Direction::higher_is_better,
      kTarget | kSkin | kPictures,
      "As vis_needle, for the target. Null: as vis_needle; no_view_shows_target (fluoroscope: none did, and none "
      "could: "
@@ -114,15 +115,16 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "it, or that bone or gas hides from everywhere, is not seen: 0.",
      kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone, and 0 where no picture could show the target; "
-     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO,
-     BySight::since_scatter},
-    {"vis_joint_session", 4, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
+     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
+     kAsksForAnyPicture},
+    {"vis_joint_session", 5, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kPictures,
      "Share of the whole time, gaps left out, in which a live picture showed tip and target at once. Null: "
      "under_1_s, no_view_shows_target.",
      kVidal, &vis_joint_session, kMedianShare, kAnyPlace | kAtAnySpeed,
-     "1: 0 where no picture could show the target; 2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO,
-     BySight::since_scatter},
+     "1: 0 where no picture could show the target; 2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO
+     " 4" SELDINGER_WITHOUT_CLUTTER,
+     kAsksForAnyPicture},
     {"vis_joint_2_mm", 2, "share", "Both within 2 mm", Group::picture, Direction::higher_is_better,
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
      "As vis_joint, by geometry alone: tip and target's centre within 2 mm of the picture's plane and inside its "
@@ -133,12 +135,13 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
      "As vis_joint_2_mm, within 5 mm. Null: as vis_needle.", kPerk, &share<&Shares::joint_5_mm_s, Shown::places>,
      kMedianShare, kShares, "1: of the time with a live picture alone: to freeze it took bad time out."},
-    {"visible_needle_length", 2, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
+    {"visible_needle_length", 3, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Mean, over the time that vis_needle counts, of the shaft's length that the picture showed. Null: as "
      "vis_needle.",
      kJohnson, &share<&Shares::needle_length_mm_s, Shown::needle>, kMedianRatio, kShares,
-     "1: of the time with a live picture alone: to freeze it took bad time out."},
+     "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
+     kAsksForShaft},
 };
 
 }  // namespace

@@ -27,17 +27,20 @@ struct Clinic {
 
 // By which law a patient breathes (docs/decisions/0084): a case's for good.
 enum class BreathLaw {
-  equal_holds,    // a depth of 1 is from CT to CT, and each hold is as still as the last
-  drifting_holds  // a depth of 1 is a quiet breath; holds differ and drift
+  equal_holds,     // a depth of 1 is from CT to CT, and each hold is as still as the last
+  drifting_holds,  // a depth of 1 is a quiet breath; holds differ and drift
+  sliding_organs   // as drifting_holds, and organs slide along the wall of chest and belly
 };
-inline constexpr auto kBreathLawNames = base::names<BreathLaw>(
-    {{BreathLaw::equal_holds, "equal_holds"}, {BreathLaw::drifting_holds, "drifting_holds"}});
+inline constexpr auto kBreathLawNames = base::names<BreathLaw>({{BreathLaw::equal_holds, "equal_holds"},
+                                                                {BreathLaw::drifting_holds, "drifting_holds"},
+                                                                {BreathLaw::sliding_organs, "sliding_organs"}});
+inline constexpr BreathLaw kNewestBreathLaw = BreathLaw::sliding_organs;
 
 // What of the patient moves. None of it: as still as the CT.
 struct Motion {
   double breath_depth = 0.0;  // in breaths of its law; 0: none
   double breath_period_s = 4.0, breath_irregularity = 0.1;
-  BreathLaw breath_law = BreathLaw::drifting_holds;         // of a version made before it: equal_holds
+  BreathLaw breath_law = kNewestBreathLaw;                  // of a version made before it: that of its time
   cases::CtBreath ct_breath = cases::CtBreath::expiration;  // and in which breath is held
   bool yields = false;                                      // tissue, to probe and needle
   std::optional<cases::Breathing> breathing() const;

@@ -144,11 +144,12 @@ void read_row(const Statement& from, const SettingRow& row, CaseSetting& setting
 
 std::optional<cases::Breathing> Motion::breathing() const {
   if (!(breath_depth > 0.0)) return std::nullopt;
-  const bool drifts = breath_law == BreathLaw::drifting_holds;
+  const bool drifts = breath_law != BreathLaw::equal_holds;
   cases::Breathing made;
   made.amplitude_mm = breath_depth * (drifts ? cases::breath::kQuietMm : cases::breath::kBetweenCtMm);
   made.period_s = breath_period_s;
   made.irregularity = breath_irregularity;
+  made.slides = breath_law == BreathLaw::sliding_organs;
   // Who plans on a CT asks for the breath in which it was taken.
   made.ct_level = made.hold_level = ct_breath == cases::CtBreath::inspiration ? 1.0 : 0.0;
   if (drifts) {

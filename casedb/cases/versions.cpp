@@ -104,7 +104,6 @@ base::Result<void> check_burned_in(const CaseRow& row) {
   return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
 }
 
-constexpr const char* kNewestBreathLaw = "'drifting_holds'";
 // A quiet breath is 12 mm downwards; what cases of before call one is 16.
 constexpr const char* kDepthByNewestBreathLaw =
     "min(3.0, breath_depth * CASE breath_law WHEN 'equal_holds' THEN 16.0 / 12.0 ELSE 1.0 END)";
@@ -129,7 +128,7 @@ void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id
       {"audience", "'everyone'"},
       {"sight_law", "'" + std::string(base::name_of(cases::kSightLawNames, cases::kNewestSightLaw)) + "'"},
       {"touch_law", "'" + std::string(base::name_of(cases::kTouchLawNames, cases::kNewestTouchLaw)) + "'"},
-      {"breath_law", kNewestBreathLaw},
+      {"breath_law", "'" + std::string(base::name_of(kBreathLawNames, kNewestBreathLaw)) + "'"},
       {"breath_depth", kDepthByNewestBreathLaw},
       {"created_us", ":created_us"}};
   const bool duplicates = copy_as == Copy::duplicate;

@@ -118,7 +118,7 @@ base::Result<Prepared> prepare(volume::Volume original, const Preparation& prepa
   if (preparation.denoise > 0.0)
     prepared.warnings.push_back(denoise(prepared.volume, static_cast<int>(std::lround(preparation.denoise))));
   if (preparation.shrinks()) prepared.volume = shrunk(prepared.volume, factors_of(preparation));
-  auto skin = skin_surface(prepared.volume, surface_options(preparation));
+  auto skin = skin_surface(prepared.volume, surface_options(preparation), &prepared.decimated);
   if (!skin) return skin.error();
   prepared.skin = std::move(*skin);
   if (auto cut = cut_body(prepared.skin, prepared.volume)) prepared.warnings.push_back(std::move(*cut));
@@ -138,6 +138,7 @@ Fidelity fidelity_of(const volume::Volume& original, const FullSurface& full, co
   Fidelity found;
   found.triangles = prepared.skin.triangles.size();
   found.full_triangles = full.mesh.triangles.size();
+  found.decimated = prepared.decimated;
   std::vector<double> distances_mm;
   add_distances(prepared.skin, full.index, distances_mm);
   add_distances(full.mesh, cases::MeshIndex(prepared.skin), distances_mm);
@@ -177,6 +178,17 @@ std::string text_of(const Fidelity& fidelity) {
   return text;
 }
 
+std::string less_decimated(const Preparation& preparation, const Fidelity& fidelity) {
+  // Decimation itself stops within a hundredth or two of what it is asked for.
+  constexpr double kToldFrom = 0.05;
+  if (!(preparation.skin_decimate - fidelity.decimated > kToldFrom)) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%.0f %% of the skin's triangles were taken away, not %.0f: more would have opened it",
+                100.0 * fidelity.decimated, 100.0 * preparation.skin_decimate);
+  return text;
+}
+
 base::Problem told_of(const Preparation& preparation, const Prepared& prepared, const Fidelity& fidelity) {
   std::string text = "asked for: " + text_of(preparation);
   if (preparation.shrinks()) {
@@ -184,7 +196,8 @@ base::Problem told_of(const Preparation& preparation, const Prepared& prepared, 
     text += "; voxels now measure " + number_text(mm.x) + " x " + number_text(mm.y) + " x " + number_text(mm.z) +
             " mm: what is smaller is lost";
   }
-  return {"prepared", text + "; " + text_of(fidelity)};
+  const std::string less = less_decimated(preparation, fidelity);
+  return {"prepared", text + "; " + text_of(fidelity) + (less.empty() ? "" : "; " + less)};
 }
 
 }  // namespace seldinger::casedb

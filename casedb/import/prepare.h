@@ -21,6 +21,7 @@ volume::Volume shrunk(const volume::Volume& volume, const glm::ivec3& factors);
 struct Prepared {
   volume::Volume volume;
   cases::Mesh skin;
+  double decimated = 0.0;  // share of the skin's triangles that could be taken away: more would have opened it
   std::vector<base::Problem> warnings;  // `denoised`, `cut_body`
 };
 
@@ -42,9 +43,12 @@ struct Fidelity {
   double mean_mm = 0.0, most_95_mm = 0.0, most_mm = 0.0;
   double mean_hu = 0.0, most_95_hu = 0.0;
   std::size_t triangles = 0, full_triangles = 0;
+  double decimated = 0.0;  // as of Prepared
 };
 Fidelity fidelity_of(const volume::Volume& original, const FullSurface& full, const Prepared& prepared);
 std::string text_of(const Fidelity& fidelity);
+// Where much less was taken away than was asked for, why; else nothing.
+std::string less_decimated(const Preparation& preparation, const Fidelity& fidelity);
 
 // What a mentor is told of a preparation, `prepared`.
 base::Problem told_of(const Preparation& preparation, const Prepared& prepared, const Fidelity& fidelity);

@@ -175,6 +175,7 @@ GreyPicture FluoroscopySight::picture(const cases::State& state, std::uint64_t s
   imaging::PictureSettings settings;
   settings.seed = seed;
   settings.frame = machine.frames;
+  settings.t_s = state.t_s;
   settings.flaws = parts_->flaws;
   const imaging::XrayGeometry geometry = parts_->geometry(machine, scene.fluoroscope.picture_px);
   const Parts::Tissue tissue = parts_->tissue_in(geometry, displacement);

@@ -20,6 +20,65 @@ using glm::cross;
 
 SHARED_BEGIN
 
+// How far the cavity's wall is from its axis, between nodes in straight lines, mm. turn: 0 to the left (x), 1 to
+// the back (y), 2, 3, 4 to the left again; height: in steps, within the table.
+SHARED real cavity_node_mm(OF_DISPLACEMENT int height, int way) {
+  int at = height * kCavityWays + way;
+  return real(displacement.wall_mm[at / 4][at % 4]);
+}
+SHARED real cavity_radius_mm(OF_DISPLACEMENT real turn, real height) {
+  real ways = turn * real(kCavityWays / 4);
+  int way = min(int(ways), kCavityWays - 1);
+  int next = way + 1 < kCavityWays ? way + 1 : 0;
+  int low = min(int(height), kCavityHeights - 2);
+  real on = ways - real(way);
+  real up = height - real(low);
+  real below_mm = (real(1.0) - on) * cavity_node_mm(THE_DISPLACEMENT low, way) +
+                  on * cavity_node_mm(THE_DISPLACEMENT low, next);
+  real above_mm = (real(1.0) - on) * cavity_node_mm(THE_DISPLACEMENT low + 1, way) +
+                  on * cavity_node_mm(THE_DISPLACEMENT low + 1, next);
+  return (real(1.0) - up) * below_mm + up * above_mm;
+}
+
+// How near to the wall organs come to rest: pleura and peritoneum are thinner, but a picture's grid of 2 to 3 mm
+// has to see it. In a breath of more than 16 mm within half of its way: steeper, no few steps would find the way
+// back.
+SHARED_CONSTANT real kSlipMm = 8.0;
+SHARED_CONSTANT real kSlipOfWay = 0.5;
+
+// Breathing by the law under which organs slide. As displacement_breath has it, but for what lies within the wall
+// of chest and belly: that goes up and down along the wall, all of it but the last few mm, and the wall does not. A
+// point keeps its direction from the axis and its share of the way to the wall. So nothing crosses the wall, and as
+// height alone changes along such a way, nothing can fold however sharp the slip is. Beside the spine, behind the
+// peritoneum, there is no such cavity below the dome: there organs move the less the farther back, as before.
+SHARED real3 displacement_sliding(OF_DISPLACEMENT DisplacementSource source, real3 p_mm) {
+  real side = (p_mm.x - real(source.place_mm.x)) / real(source.size_mm.x);
+  real front = (real(source.place_mm.y) - p_mm.y) / real(source.size_mm.y);
+  real up_mm = p_mm.z - real(source.place_mm.z);
+  real level = breath_level(source, up_mm);
+  real beside = real(0.35) * (real(1.0) - eased(up_mm / 120.0));
+  real free = eased((abs(side) - beside) / 0.35);
+  real loose = level * (free + (real(1.0) - free) * before_the_spine(side, front));
+
+  real x_mm = p_mm.x - real(source.along.x);
+  real y_mm = p_mm.y - real(source.along.y);
+  real around_mm = max(abs(x_mm) + abs(y_mm), real(1e-6));
+  real turn = y_mm < 0.0 ? real(3.0) + x_mm / around_mm : real(1.0) - x_mm / around_mm;
+  real per_step = real(1.0) / real(source.along.w);
+  real highest = real(kCavityHeights - 1);
+  real height = (p_mm.z - real(source.along.z)) * per_step;
+  real wall_mm = cavity_radius_mm(THE_DISPLACEMENT turn, clamp(height, real(0.0), highest));
+  real from_axis_mm = sqrt(x_mm * x_mm + y_mm * y_mm);
+  real slip_mm = max(kSlipMm, kSlipOfWay * abs(real(source.amount.z)));
+  real down_mm = real(source.amount.z) * loose * eased((wall_mm - from_axis_mm) / slip_mm);
+  real wider =
+      cavity_radius_mm(THE_DISPLACEMENT turn, clamp(height - down_mm * per_step, real(0.0), highest)) / wall_mm -
+      1.0;
+  real inside = real(1.0) - eased((from_axis_mm / wall_mm - 0.65) / 0.35);
+  return real3(wider * x_mm - real(source.amount.x) * loose * inside,
+               wider * y_mm - real(source.amount.y) * level * eased(front), -down_mm);
+}
+
 // u at a place at rest, mm.
 SHARED real3 displacement_at(OF_DISPLACEMENT real3 rest_mm) {
   real3 moved_mm = real3(0.0);
@@ -29,7 +88,12 @@ SHARED real3 displacement_at(OF_DISPLACEMENT real3 rest_mm) {
   for (; i < displacement.shaft_end; ++i) moved_mm += displacement_shaft(displacement.source[i], rest_mm);
   for (; i < displacement.organ_end; ++i) moved_mm += displacement_organ(displacement.source[i], rest_mm);
   for (; i < displacement.vein_end; ++i) moved_mm += displacement_vein(displacement.source[i], rest_mm);
-  for (; i < displacement.breath_end; ++i) moved_mm += displacement_breath(displacement.source[i], rest_mm);
+  for (; i < displacement.breath_end; ++i) {
+    if (displacement.source[i].along.w > 0.0)
+      moved_mm += displacement_sliding(THE_DISPLACEMENT displacement.source[i], rest_mm);
+    else
+      moved_mm += displacement_breath(displacement.source[i], rest_mm);
+  }
   return moved_mm;
 }
 

@@ -12,6 +12,9 @@
 SHARED_BEGIN
 
 SHARED_CONSTANT int kMostDisplacementSources = 16;
+SHARED_CONSTANT int kCavityHeights = 24;
+SHARED_CONSTANT int kCavityWays = 32;  // directions about the axis
+SHARED_CONSTANT int kCavityNodes = 768;
 SHARED_CONSTANT real kHalfPi = 1.5707963267948966;
 
 // One cause (std140, as everything here). Places are of tissue at rest, LPS, mm. What the rest holds is its kind's:
@@ -29,7 +32,8 @@ SHARED_CONSTANT real kHalfPi = 1.5707963267948966;
 //   breath:  place: x of the middle, y of the back, z of the diaphragm's dome; size: half width, depth (back to
 //   front),
 //            from dome up to where it is still, from dome down to there; amount: mm to the right, to the front,
-//            downwards, where it is most
+//            downwards, where it is most; along: where organs slide, x and y of the cavity's axis, z of its lowest
+//            height, mm from height to height; else 0
 struct DisplacementSource {
   vec4 place_mm;
   vec4 along;
@@ -48,6 +52,8 @@ struct Displacement {
   int padding_0;
   int padding_1;
   DisplacementSource source[kMostDisplacementSources];
+  vec4
+      wall_mm[kCavityNodes / 4];  // where organs slide, from the axis to the cavity's wall: by height, by direction
 };
 
 // What displacement_points.comp is asked.
@@ -232,23 +238,32 @@ SHARED real3 displacement_vein(DisplacementSource source, real3 p_mm) {
   return (sqrt(real(1.0) - gone * q_2) - 1.0) * across_mm;
 }
 
+// 1 at the dome, 0 from the apex and from the pelvis on.
+SHARED real breath_level(DisplacementSource source, real up_mm) {
+  return real(1.0) - (up_mm > 0.0 ? eased(up_mm / real(source.size_mm.z)) : eased(-up_mm / real(source.size_mm.w)));
+}
+
+// 0 in the spine and beside it in the back, 1 before them. The spine reaches further forwards than the back beside
+// it, where the kidneys lie.
+SHARED real before_the_spine(real side, real front) {
+  real back = real(0.42) - real(0.32) * eased(abs(side) / 0.35);
+  return eased((front - back) / 0.25);
+}
+
 // Breathing. Where it moves how much is drawn, not computed: no source gives a field (design). What it must show:
 // most at the dome (how far: sim/case/breathing.h), a kidney 0.6 to 0.7 as
 // far (Song 2011), nothing from the apex and from the pelvis on. Organs leave the wall of the trunk, the spine and
-// the back where they are (all of that slides at pleura and peritoneum, here within the outer third); the front
-// rises. LPS: x to the left, y to the back, z upwards.
+// the back where they are, here within the trunk's outer third (displacement_sliding parts them where the wall is);
+// the front rises. LPS: x to the left, y to the back, z upwards.
 SHARED real3 displacement_breath(DisplacementSource source, real3 p_mm) {
   real side = (p_mm.x - real(source.place_mm.x)) / real(source.size_mm.x);   // −1 right wall, 1 left wall
   real front = (real(source.place_mm.y) - p_mm.y) / real(source.size_mm.y);  // 0 back, 1 front
   real up_mm = p_mm.z - real(source.place_mm.z);
-  real level =
-      real(1.0) - (up_mm > 0.0 ? eased(up_mm / real(source.size_mm.z)) : eased(-up_mm / real(source.size_mm.w)));
+  real level = breath_level(source, up_mm);
   real middle = real(2.0) * front - 1.0;
   real from_middle = sqrt(side * side + middle * middle);  // 1 on the wall
   real inside = real(1.0) - eased((from_middle - 0.65) / 0.35);
-  // The spine reaches further forwards than the back beside it, where the kidneys lie.
-  real back = real(0.42) - real(0.32) * eased(abs(side) / 0.35);
-  real organ = level * inside * eased((front - back) / 0.25);
+  real organ = level * inside * before_the_spine(side, front);
   return real3(-real(source.amount.x) * organ, -real(source.amount.y) * level * eased(front),
                -real(source.amount.z) * organ);
 }

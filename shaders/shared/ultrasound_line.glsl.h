@@ -87,10 +87,19 @@ SHARED real us_turned_rad(real n_less_1, real off_radii) {
   real sine = clamp(off_radii, -kUsMostSine, kUsMostSine);
   return abs(off_radii) < real(1.0) ? real(2.0) * n_less_1 * sine / sqrt(real(1.0) - sine * sine) : real(0.0);
 }
+// Of a body that a beam enters and leaves by planes of these normals, both the way the beam goes, in any frame, and
+// so much of them along the beam: the cosine at which it would leave a ball that turns it as much. A side turns a
+// ray by the tangent of its lean; the two of a ball lean against each other, those of a layer alike, and turn no
+// ray.
+SHARED real us_round_cosine(real3 into, real into_along, real3 out_of, real out_along) {
+  real3 lean = real(0.5) * (out_of / max(out_along, real(1e-3)) - into / max(into_along, real(1e-3)));
+  return real(1.0) / sqrt(real(1.0) + dot(lean, lean));
+}
 // How far the rays of a beam of this width part, a share of the width for each mm behind the body (negative: they
-// meet); 0: of no round body. The ball is told by where the beam leaves it: chord and cosine of the angle to the
-// normal. Smaller ones are narrower than a beam, or single voxels of noise. What is left within 30° of squarely may
-// be a layer, whose two sides turn no ray; a ball hardly turns one there.
+// meet); 0: of no round body. The ball is told by chord and cosine of the angle to the normal where the beam leaves
+// it (us_round_cosine; laws before clutter take the plane there alone). Smaller ones are narrower than a beam, or
+// single voxels of noise. What is left within 30° of squarely may be a layer, which voxels tell roughly; a ball
+// hardly turns a ray there.
 SHARED_CONSTANT real kUsLeastRoundMm = 3.0, kUsLeastChordMm = 2.0;
 SHARED_CONSTANT real kUsLayerSine = 0.5, kUsRoundSine = 0.7;
 SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_mm, real cosine, real width_mm) {

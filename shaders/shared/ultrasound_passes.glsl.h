@@ -52,6 +52,8 @@ SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
 SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u, kUsFluid = 4u,
                      kUsVessel = 12u;  // classes of tissue; before the first:
 SHARED_CONSTANT int kUsGel = 255;
+// By what round bodies are told: the plane where the beam leaves them, or that where it comes in as well.
+SHARED_CONSTANT int kUsEdgesByOneSide = 1, kUsEdgesByBothSides = 2;
 struct UsLineParameters {
   vec4
       of_class[16];  // x: impedance in MRayl; y: loss in dB a mm; z, w: their sum is how much deeper a sample shows
@@ -68,7 +70,7 @@ struct UsLineParameters {
   float per_unit;       // what sums are counted in
   float least_side_mm;  // of the sum that tells a normal
   int shifts;
-  int edges;  // of round bodies, cast shadows; and the beam that they meet:
+  int edges;  // of round bodies, cast shadows (0: none, or kUsEdges…); and the beam that they meet:
   float wavelength_mm;
   float f_number;
   float aperture_mm;

@@ -38,13 +38,77 @@ void put(int beam, int place, float depth_mm, float amplitude, float parting_per
   echoes[beam * kUsMostEchoes + place] = vec4(depth_mm, amplitude * cos(angle), amplitude * sin(angle), parting_per_mm);
 }
 
+// A sample's upper border and what lies there, as it was at rest.
+struct Meeting {
+  dvec3 index;
+  vec3 from_origin_mm;
+  vec3 way;  // of the beam, through tissue at rest
+#ifdef ULTRASOUND_MOVED
+  PathPlace path;
+#endif
+};
+Meeting meeting_at(int beam, UsBeam at, int k) {
+  Meeting here;
+  float depth_mm = float(k) * parameters.sample_mm;
+  here.index = dvec3(at.index.xyz) + dvec3(at.index_rest.xyz) +
+               double(k) * (dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz));
+  here.from_origin_mm = at.start_mm.xyz + depth_mm * at.direction.xyz;
+  here.way = at.direction.xyz;
+#ifdef ULTRASOUND_MOVED
+  here.path = path_place(beam, depth_mm);
+  vec3 back_mm = path_value(here.path, 0);
+  here.index += dvec3(voxels_of(back_mm));
+  here.from_origin_mm += back_mm;
+  here.way = way_along(here.path, at.direction.xyz);
+#endif
+  return here;
+}
+
+vec3 offset_mm_of(vec4 neighbour) {
+  return neighbour.x * parameters.mm_per_voxel[0].xyz + neighbour.y * parameters.mm_per_voxel[1].xyz +
+         neighbour.z * parameters.mm_per_voxel[2].xyz;
+}
+// Weight of a neighbour, negative where it is more like what is before.
+float side_of(Meeting here, vec4 neighbour, float before, float after) {
+  uint there = class_at(ivec3(floor(here.index)) + ivec3(neighbour.xyz), here.from_origin_mm + offset_mm_of(neighbour));
+  return (parameters.of_class[there].x > sqrt(before * after)) == (after > before) ? neighbour.w : -neighbour.w;
+}
+// Of the plane between the two, from which side each neighbour resembles more (line.cpp, plane_at); 0: not told.
+vec3 normal_at(Meeting here, float before, float after) {
+  vec3 normal = vec3(0.0);
+  for (int i = 0; i < parameters.around; ++i)
+    normal += side_of(here, neighbours[i], before, after) * offset_mm_of(neighbours[i]);
+  float side_mm = length(normal);
+  return side_mm > parameters.least_side_mm ? normal / side_mm : vec3(0.0);
+}
+// As the beam meets it now: along it, across it and out of the plane; or, of tissue that lies still, as it is.
+vec3 as_met(Meeting here, vec3 normal) {
+#ifdef ULTRASOUND_MOVED
+  return vec3(dot(normal, here.way), dot(normal, path_value(here.path, 1)), dot(normal, path_value(here.path, 2)));
+#else
+  return normal;
+#endif
+}
+float before_mrayl(ivec4 listed) {
+  int before_class = listed.y & 255;
+  return before_class == kUsGel ? kUsMatchedMrayl : parameters.of_class[before_class].x;
+}
+
 // The parting of rays behind a round body that the beam leaves here: the interface before is where it came in.
-float parting_behind(int beam, int place, ivec4 here, float cosine, float depth_mm) {
+float parting_behind(int beam, int place, UsBeam at, ivec4 here, Meeting out_at, vec3 out_normal, float cosine,
+                     float depth_mm) {
   uint inside = uint(here.y & 255);
   bool leaves = parameters.edges != 0 && place > 0 && (inside == kUsFluid || inside == kUsVessel) &&
                 us_is_matched(parameters.of_class[here.y >> 8].x);
   ivec4 last = interfaces[beam * kUsMostInterfaces + max(place - 1, 0)];
   if (!leaves || uint(last.y >> 8) != inside) return 0.0;
+  if (parameters.edges == kUsEdgesByBothSides) {
+    Meeting into = meeting_at(beam, at, last.x);
+    vec3 into_normal = normal_at(into, before_mrayl(last), parameters.of_class[inside].x);
+    if (last.x == 0 || into_normal == vec3(0.0) || out_normal == vec3(0.0)) return 0.0;
+    cosine = us_round_cosine(as_met(into, into_normal), dot(into_normal, into.way), as_met(out_at, out_normal),
+                             dot(out_normal, out_at.way));
+  }
   vec4 within = parameters.of_class[inside];
   vec4 beyond = parameters.of_class[here.y >> 8];
   float width_mm = us_lateral_fwhm_mm(max(depth_mm, 1.0), parameters.wavelength_mm, parameters.f_number,
@@ -57,73 +121,46 @@ void put_interface(int beam, int place, UsBeam at) {
   ivec4 here = interfaces[beam * kUsMostInterfaces + place];
   // What is before and after the interface, and what was lost on the way to it.
   int k = here.x;
-  int before_class = here.y & 255;
-  float before = before_class == kUsGel ? kUsMatchedMrayl : parameters.of_class[before_class].x;
+  float before = before_mrayl(here);
   float after = parameters.of_class[here.y >> 8].x;
   float loss_to_db = intBitsToFloat(here.w);
   float reflection = us_reflection(before, after);
   float depth_mm = float(k) * parameters.sample_mm;
   float cosine = 1.0;
+  Meeting meeting = meeting_at(beam, at, k);
+  vec3 normal = vec3(0.0);
   if (k > 0) {
-    // The plane between the two: its normal from which side each neighbour resembles more, its place from how many
-    // resemble each (line.cpp, plane_at). Twice over the neighbours: the wider surroundings give the normal, then the
-    // close ones the place.
-    dvec3 index = dvec3(at.index.xyz) + dvec3(at.index_rest.xyz) +
-                  double(k) * (dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz));
-    vec3 from_origin_mm = at.start_mm.xyz + depth_mm * at.direction.xyz;
-    vec3 way = at.direction.xyz;
-#ifdef ULTRASOUND_MOVED
-    PathPlace place = path_place(beam, depth_mm);
-    vec3 back_mm = path_value(place, 0);
-    index += dvec3(voxels_of(back_mm));
-    from_origin_mm += back_mm;
-    way = way_along(place, at.direction.xyz);
-#endif
-    ivec3 voxel = ivec3(floor(index));
-    vec3 to_center = vec3(dvec3(voxel) + 0.5lf - index);
-    vec3 x_mm = parameters.mm_per_voxel[0].xyz;
-    vec3 y_mm = parameters.mm_per_voxel[1].xyz;
-    vec3 z_mm = parameters.mm_per_voxel[2].xyz;
-    float middle = sqrt(before * after);
-    vec3 normal = vec3(0.0);
-    float sum = 0.0;
-    float square = 0.0;
-    float along = 1.0;
-    for (int i = 0; i < parameters.around + parameters.close; ++i) {
-      if (i == parameters.around) {
-        float side_mm = length(normal);
-        normal = side_mm > parameters.least_side_mm ? normal / side_mm : vec3(0.0);
-      }
-      vec4 one = neighbours[i];
-      vec3 offset_mm = one.x * x_mm + one.y * y_mm + one.z * z_mm;
-      uint there = class_at(voxel + ivec3(one.xyz), from_origin_mm + offset_mm);
-      float side = (parameters.of_class[there].x > middle) == (after > before) ? one.w : -one.w;
-      if (i < parameters.around) {
-        normal += side * offset_mm;
-      } else {
-        float way = dot(offset_mm, normal);
-        sum += side;
-        square += one.w * way * way;
-      }
-    }
-    along = dot(normal, way);
+    normal = normal_at(meeting, before, after);
     bool told = normal != vec3(0.0);
+    float along = dot(normal, meeting.way);
 #ifdef ULTRASOUND_MOVED
-    float facing = us_facing(along, dot(normal, path_value(place, 1)), dot(normal, path_value(place, 2)));
+    vec3 met = as_met(meeting, normal);
+    float facing = us_facing(met.x, met.y, met.z);
 #else
     float facing = abs(along);
 #endif
     cosine = told ? clamp(facing, 0.0, 1.0) : 1.0;
+    // The plane's place is told by how many of the close ones resemble each.
+    float sum = 0.0;
+    float square = 0.0;
+    for (int i = parameters.around; i < parameters.around + parameters.close; ++i) {
+      vec4 one = neighbours[i];
+      float way = dot(offset_mm_of(one), normal);
+      sum += side_of(meeting, one, before, after);
+      square += one.w * way * way;
+    }
     // Placed between voxels, so that a slanted wall is a line, not a staircase; except where it is seen edge-on.
     if (told && square > 1e-9 && cosine > kUsLeastPlaceCosine) {
-      float off_mm = dot(to_center.x * x_mm + to_center.y * y_mm + to_center.z * z_mm, normal) -
+      vec3 to_center = vec3(floor(meeting.index) + 0.5lf - meeting.index);
+      float off_mm = dot(offset_mm_of(vec4(to_center, 0.0)), normal) -
                      us_plane_off(sum, parameters.close_weight, square);
       depth_mm = max(0.0, depth_mm + clamp(off_mm / along, -parameters.most_shift_mm, parameters.most_shift_mm));
     }
   }
   // Its echo, and the repeats of a strong one.
   float face = reflection * us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_to_db);
-  put(beam, here.z, depth_mm, face, parting_behind(beam, place, here, cosine, depth_mm));
+  put(beam, here.z, depth_mm, face,
+      parting_behind(beam, place, at, here, meeting, normal, cosine, depth_mm));
   if (abs(reflection) < kUsRepeatsFrom) return;
   int room = float(k) * parameters.sample_mm > parameters.most_shift_mm ? kUsMostAgain : 1 + kUsLensLines;
   for (int i = 1; i < room; ++i) {

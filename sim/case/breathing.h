@@ -47,6 +47,7 @@ struct Breathing {
   // Beside it: standard deviation from hold to hold, and how fast breath goes out while one lasts; shares of a
   // breath.
   double hold_spread = 0.0, hold_drift_per_s = 0.0;
+  bool slides = false;       // what lies within the trunk's wall, along it (sim/tissue/cavity_wall.h)
   double cough_level = 0.6;  // how far a cough throws the diaphragm up, as a share of a breath (design)
   std::uint64_t seed = 1;
   bool operator==(const Breathing&) const = default;

@@ -77,7 +77,7 @@ enum class SightLaw {
   half_slice,  // the tip within half the slice's width at any tilt, a target of any size by its contrast
   echo,        // the tip by its echo alone, a target by contrast and size
   scatter,     // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
-  clutter      // with clutter in ultrasound (docs/decisions/0090); what is told stays as it is
+  clutter      // with clutter in ultrasound (docs/decisions/0090)
 };
 inline constexpr auto kSightLawNames = base::names<SightLaw>({{SightLaw::half_slice, "half_slice"},
                                                               {SightLaw::echo, "echo"},

@@ -8,6 +8,7 @@ namespace seldinger::engine {
 
 MovingTissue::MovingTissue(const cases::Case& scene) : scene_(scene) {
   if (scene.breathing) region_ = tissue::breath_region(scene);
+  if (region_ && scene.breathing->slides) wall_ = tissue::cavity_wall(scene);
   if (scene.yields) veins_ = tissue::compressible_veins(scene);
   if (scene.yields && scene.touch.law == cases::TouchLaw::organs_move) organs_ = tissue::loose_organs(scene);
 }
@@ -39,7 +40,8 @@ tissue::Displacement MovingTissue::of(const cases::State& state, const haptics::
       if (hand.tool == haptics::Tool::needle) causes.needle = hand.needle.drag;
   if (causes.needle) causes.organ = tissue::pushed(organs_, *causes.needle);
   if (region_)
-    causes.breath = tissue::Breath{*region_, tissue::breath_amount_mm(*scene_.breathing, state.breath.level)};
+    causes.breath = tissue::Breath{*region_, tissue::breath_amount_mm(*scene_.breathing, state.breath.level),
+                                   wall_ ? &*wall_ : nullptr};
   return tissue::displacement_of(causes);
 }
 

@@ -8,6 +8,7 @@
 #include "sim/case/case.h"
 #include "sim/case/state.h"
 #include "sim/haptics/two_hands.h"
+#include "sim/tissue/cavity_wall.h"
 #include "sim/tissue/displacement.h"
 #include "sim/tissue/loose_organs.h"
 #include "sim/tissue/veins.h"
@@ -39,6 +40,7 @@ class MovingTissue {
 
   const cases::Case& scene_;
   std::optional<tissue::BreathRegion> region_;  // where it breathes
+  std::optional<tissue::CavityWall> wall_;      // under which organs slide
   std::vector<tissue::CompressibleVein> veins_;
   std::vector<tissue::LooseOrgan> organs_;  // by the newest law of touch
 };

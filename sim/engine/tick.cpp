@@ -26,10 +26,21 @@ void note_capsule(const haptics::HeldNeedleState& needle, TickState& now) noexce
 }  // namespace
 
 Moment moment_of(const TickState& now) noexcept {
-  return {
-      now.state,     now.displacement, now.force,     now.reaction.kind,  now.reaction.t_s,        now.event.kind,
-      now.event.t_s, now.capsules,     now.capsule_n, now.patient.numbed, now.patient.numb_lps_mm, now.patient.deep,
-      now.introducer};
+  return {now.state,
+          now.displacement,
+          now.force,
+          now.reaction.kind,
+          now.reaction.t_s,
+          now.event.kind,
+          now.event.t_s,
+          now.capsules,
+          now.capsule_n,
+          now.patient.numbed,
+          now.patient.numb_lps_mm,
+          now.patient.deep,
+          now.introducer,
+          now.patient.nicked,
+          now.patient.nick_lps_mm};
 }
 
 void Scenario::add_to(cases::Inputs& inputs, double t_s, std::uint32_t& happened) const noexcept {

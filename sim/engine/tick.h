@@ -37,6 +37,9 @@ struct Moment {
   std::array<glm::dvec3, kNumbPlaces> numb_lps_mm{};
   std::uint32_t deep = 0;            // places about a tip in tissue were made numb
   haptics::Introducer introducer{};  // of a core needle
+  // PatientState's: the latest places where the skin is nicked, at rest, and how many there were.
+  std::uint32_t nicked = 0;
+  std::array<glm::dvec3, kNickPlaces> nick_lps_mm{};
   double told_s = 0.0;  // when what the hands wanted last was told, by whoever's clock told it; 0: it was not
 };
 

@@ -6,7 +6,7 @@
 namespace seldinger::engine {
 namespace {
 
-constexpr fields::Mark kMark = {{'S', 'e', 'l', 'd', 'T', 'i', 'c', 'k'}, 6};
+constexpr fields::Mark kMark = {{'S', 'e', 'l', 'd', 'T', 'i', 'c', 'k'}, 7};
 
 // What the laws take as an index must be one, whoever wrote the bytes.
 bool usable(const TickState& now) noexcept {

@@ -63,7 +63,7 @@ SELDINGER_FIELDS(PatientState, numb, numbed, deep_at, deep, nick, nicked, was_in
 SELDINGER_FIELDS(devices::VirtualDeviceState, pose, started)
 SELDINGER_FIELDS(VirtualArms, needle, probe)
 SELDINGER_FIELDS(shaders::DisplacementSource, place, along, size, amount)
-SELDINGER_FIELDS(tissue::Displacement, contact, tip, shaft, vein, breath, organ, padding_0, padding_1, source)
+SELDINGER_FIELDS(tissue::Displacement, contact, tip, shaft, vein, breath, organ, padding_0, padding_1, source, wall)
 SELDINGER_FIELDS(cases::ForceSample, t, axial, lateral, probe)
 SELDINGER_FIELDS(LastEvent, kind, t)
 SELDINGER_FIELDS(TickState, state, hands, patient, arms, introducer, displacement, force, reaction, event, capsules,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 
 #include "shaders/shared/displacement.glsl.h"
@@ -133,12 +135,18 @@ bool vein_source(const SqueezedVein& vein, DisplacementSource& source) noexcept 
   return true;
 }
 
-bool breath_source(const Breath& breath, DisplacementSource& source) noexcept {
+bool breath_source(const Breath& breath, Displacement& made, DisplacementSource& source) noexcept {
   if (!(glm::dot(breath.amount_mm, breath.amount_mm) > kLeastMm * kLeastMm)) return false;
   const BreathRegion& region = breath.region;
   source.place_mm = vec4_from({region.middle_x_mm, region.back_y_mm, region.dome_z_mm});
   source.size_mm = vec4_from({region.half_width_mm, region.depth_mm, region.above_mm}, region.below_mm);
   source.amount = vec4_from(breath.amount_mm);
+  if (breath.wall != nullptr) {
+    CHECK(breath.wall->step_mm > 0.0);
+    source.along = vec4_from(breath.wall->axis_lps_mm, breath.wall->step_mm);
+    static_assert(sizeof made.wall_mm == sizeof breath.wall->radius_mm);
+    std::memcpy(static_cast<void*>(made.wall_mm), breath.wall->radius_mm.data(), sizeof made.wall_mm);
+  }
   return true;
 }
 
@@ -227,7 +235,7 @@ Displacement displacement_of(const Causes& causes) noexcept {
   made.organ_end = n;
   for (const SqueezedVein& vein : causes.veins) n += vein_source(vein, made.source[n]) ? 1 : 0;
   made.vein_end = n;
-  if (causes.breath) n += breath_source(*causes.breath, made.source[n]) ? 1 : 0;
+  if (causes.breath) n += breath_source(*causes.breath, made, made.source[n]) ? 1 : 0;
   made.breath_end = n;
   return made;
 }
@@ -241,6 +249,7 @@ Displacement without_presses(const Displacement& displacement) noexcept {
   left.vein_end = displacement.vein_end - presses;
   left.breath_end = displacement.breath_end - presses;
   for (int i = 0; i < left.breath_end; ++i) left.source[i] = displacement.source[i + presses];
+  std::copy(std::begin(displacement.wall_mm), std::end(displacement.wall_mm), std::begin(left.wall_mm));
   return left;
 }
 

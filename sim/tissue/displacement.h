@@ -11,6 +11,7 @@
 
 #include "shaders/shared/displacement_source.glsl.h"
 #include "sim/tissue/breathing.h"
+#include "sim/tissue/cavity_wall.h"
 #include "sim/volume/classes.h"
 
 namespace seldinger::tissue {
@@ -56,7 +57,8 @@ struct PushedOrgan {
 
 struct Breath {
   BreathRegion region;
-  glm::dvec3 amount_mm{0.0};  // now: to the right, to the front, downwards, where it is most
+  glm::dvec3 amount_mm{0.0};         // now: to the right, to the front, downwards, where it is most
+  const CavityWall* wall = nullptr;  // under which organs slide; null: they come to rest within the outer third
 };
 
 constexpr int kMostPresses = 2, kMostVeins = 11;

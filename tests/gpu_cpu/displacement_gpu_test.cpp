@@ -36,8 +36,21 @@ struct Scene {
   std::array<tissue::SkinPress, 2> presses;
   std::array<tissue::SqueezedVein, 11> veins;
   tissue::NeedleDrag needle;
-  tissue::Breath breath;
+  tissue::Breath breath, sliding;
 };
+
+// A wall that is nowhere round and nowhere upright.
+const tissue::CavityWall& wall() {
+  static const tissue::CavityWall made = [] {
+    tissue::CavityWall wall;
+    wall.axis_lps_mm = kMiddle - glm::dvec3(0, 10, 240);
+    wall.step_mm = 20.0;
+    base::Rng rng(3);
+    for (float& radius_mm : wall.radius_mm) radius_mm = static_cast<float>(90.0 + 8.0 * rng.uniform());
+    return wall;
+  }();
+  return made;
+}
 
 Scene scene() {
   Scene s;
@@ -66,6 +79,8 @@ Scene scene() {
                .depth_mm = 220.0,
                .dome_z_mm = kMiddle.z},
               {2.0, 15.0, 16.0}};
+  s.sliding = s.breath;
+  s.sliding.wall = &wall();
   return s;
 }
 
@@ -115,12 +130,13 @@ class DisplacementOnGpu : public testing::Test {
 // The goal: at most 1e-3 mm on 10^5 points.
 TEST_F(DisplacementOnGpu, IsTheCpusToAMicron) {
   const Scene s = scene();
-  const std::array<std::pair<const char*, Displacement>, 7> each{
+  const std::array<std::pair<const char*, Displacement>, 8> each{
       {{"press over bone", displacement_of({.presses = {&s.presses[0], 1}})},
        {"press", displacement_of({.presses = {&s.presses[1], 1}})},
        {"needle", displacement_of({.needle = s.needle})},
        {"veins", displacement_of({.veins = s.veins})},
        {"breath", displacement_of({.breath = s.breath})},
+       {"sliding breath", displacement_of({.breath = s.sliding})},
        {"organ", displacement_of({.needle = s.needle,
                                   .organ = tissue::PushedOrgan{kMiddle + glm::dvec3(10, -20, -50),
                                                                35.0,
@@ -164,7 +180,8 @@ TEST(DisplacementParameters, HaveTheOffsetsOfTheShadersBlocks) {
   const std::map<std::string, std::size_t> counts{
       {"contact_end", offsetof(D, contact_end)}, {"tip_end", offsetof(D, tip_end)},
       {"shaft_end", offsetof(D, shaft_end)},     {"organ_end", offsetof(D, organ_end)},
-      {"vein_end", offsetof(D, vein_end)},       {"breath_end", offsetof(D, breath_end)}};
+      {"vein_end", offsetof(D, vein_end)},       {"breath_end", offsetof(D, breath_end)},
+      {"wall_mm", offsetof(D, wall_mm)}};
   EXPECT_EQ(offsets_from_compiler(files[0], "displacement"), counts);
   // Of the first source; the array's stride is its size, a multiple of 16.
   using S = shaders::DisplacementSource;

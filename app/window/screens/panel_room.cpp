@@ -238,6 +238,8 @@ void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
   const engine::Moment& moment = seen.moment;
   options.numb_lps_mm =
       std::span(moment.numb_lps_mm).first(std::min<std::size_t>(moment.numbed, engine::kNumbPlaces));
+  options.nicks_lps_mm =
+      std::span(moment.nick_lps_mm).first(std::min<std::size_t>(moment.nicked, engine::kNickPlaces));
   imaging::make_draw_list(room_->scene, scene, seen.moment.state, options, room_->list);
   const unsigned int name = room_->renderer.draw(room_->list, picture, seen.moment.displacement);
   drawn_.emplace(context_);

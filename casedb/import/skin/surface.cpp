@@ -237,7 +237,8 @@ void thin(double share, cases::Mesh& mesh) {
 
 }  // namespace
 
-base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const SurfaceOptions& options) {
+base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const SurfaceOptions& options,
+                                       double* taken_share) {
   const base::Error no_body{"no_body", "nothing in the volume is denser than air: there is no skin"};
   vtkObject::GlobalWarningDisplayOff();
   cases::Mesh full;
@@ -257,7 +258,9 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
     settle_on_faces(full, faces, volume);
   }
   cases::Mesh mesh = std::move(full);
+  const auto before = static_cast<double>(mesh.triangles.size());
   thin(options.decimate_share, mesh);
+  if (taken_share != nullptr) *taken_share = 1.0 - static_cast<double>(mesh.triangles.size()) / before;
   CHECK(is_closed(mesh));
   if (signed_volume_mm3(mesh) < 0.0)
     for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);

@@ -19,7 +19,10 @@ struct SurfaceOptions {
 // Clamp, shrink, pad with one voxel of air, iso-surface, smooth, decimate, outward normals; closed where the volume
 // ends or what lies beyond the reconstruction's circle begins, those caps marked cut. Smoothed first: on decimated
 // triangles of every size it goes astray by millimetres. Refused: `no_body`.
-base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const SurfaceOptions& options = {});
+// Where taking away as much would open the skin less is taken away: `taken_share`, where it is asked for, says how
+// much.
+base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const SurfaceOptions& options = {},
+                                       double* taken_share = nullptr);
 
 // The warning `cut_body` of a skin that ends at more than the patient's head and feet: where, and how much is skin.
 std::optional<base::Problem> cut_body(const cases::Mesh& skin, const volume::Volume& volume);

@@ -22,7 +22,7 @@ using shaders::DisplacementSource;
 static_assert(offsetof(Displacement, breath_end) == 16);
 static_assert(offsetof(Displacement, source) == 32);
 static_assert(sizeof(DisplacementSource) == 64);
-static_assert(sizeof(Displacement) == 1056);
+static_assert(sizeof(Displacement) == 4128);
 
 constexpr int kGroup = 64;  // local_size_x of the shader
 constexpr int kSourcesBinding = 0, kParametersBinding = 1, kGivenBinding = 2, kFoundBinding = 3;

@@ -11,7 +11,7 @@ namespace seldinger::imaging {
 namespace {
 
 const glm::vec4 kSkin(0.56F, 0.32F, 0.23F, 1.0F), kDrape(0.06F, 0.21F, 0.26F, 1.0F);
-const glm::vec4 kWheal(0.64F, 0.42F, 0.33F, 1.0F);
+const glm::vec4 kWheal(0.64F, 0.42F, 0.33F, 1.0F), kWound(0.24F, 0.02F, 0.02F, 1.0F);
 const glm::vec4 kGel(0.62F, 0.47F, 0.22F, 1.0F), kTray(0.50F, 0.52F, 0.54F, 1.0F);
 const glm::vec4 kFloor(0.17F, 0.19F, 0.21F, 1.0F), kWalls(0.40F, 0.44F, 0.45F, 1.0F);
 const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.50F, 0.44F, 0.32F, 1.0F);
@@ -21,7 +21,10 @@ const glm::vec4 kPlanLine(0.10F, 0.65F, 0.18F, 0.55F);
 constexpr float kGlass = 0.3F;
 constexpr double kGuideMm = 150.0, kLineRadiusMm = 0.6, kEntryRadiusMm = 3.0;
 constexpr double kWhealRadiusMm = 5.0, kWhealHeightMm = 1.5;  // a bleb in the skin (design)
-constexpr int kTurnedPieces = 12;                             // of an arc whose console was turned
+// A stab with a pointed blade, 3 to 5 mm long and gaping a little; nobody says which way it is: across the body, as
+// skin's lines run on a trunk (design).
+constexpr double kNickHalfLengthMm = 2.0, kNickHalfWidthMm = 0.5, kNickHeightMm = 0.3;
+constexpr int kTurnedPieces = 12;  // of an arc whose console was turned
 
 glm::dmat4 pose(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin) {
   return glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), glm::dvec4(origin, 1.0));
@@ -109,6 +112,28 @@ class Maker {
       wheal.colour = kWheal;
       wheal.displaced = scene_.yields || scene_.breathing.has_value();
       add(wheal);
+    }
+  }
+
+  // A dark slit that rises no higher than it has to, to be seen on a skin of triangles.
+  void nicks() {
+    for (const glm::dvec3& place : options_.nicks_lps_mm) {
+      const auto skin = scene_.skin_index.closest_skin(place);
+      const glm::dvec3 z = scene_.skin_index.normal(skin.triangle);
+      const Axes axes = across(z, room_.frame);
+      const glm::dvec3 along_skin = room_.frame.across - glm::dot(room_.frame.across, z) * z;
+      const double length = glm::length(along_skin);
+      const glm::dvec3 x = length > 0.1 ? along_skin / length : axes.x;
+      RoomItem nick;
+      nick.part = RoomPart::nick;
+      nick.mesh = room_.ball;
+      nick.lps_from_mesh =
+          pose(kNickHalfLengthMm * x, kNickHalfWidthMm * glm::cross(z, x), kNickHeightMm * z, skin.point_lps_mm);
+      nick.colour = kWound;
+      nick.roughness = 0.25F;  // wet
+      nick.displaced = scene_.yields || scene_.breathing.has_value();
+      nick.least_half_px = 0.75;
+      add(nick);
     }
   }
 
@@ -294,6 +319,7 @@ void make_draw_list(const RoomModel& room, const cases::Case& scene, const cases
   Maker make(room, scene, state, options, list);
   make.patient();
   make.wheals();
+  make.nicks();
   if (options.needle) make.needle();
   if (options.probe) make.probe();
   make.c_arm();

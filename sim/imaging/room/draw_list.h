@@ -24,6 +24,7 @@ enum class RoomPart : std::uint8_t {
   floor,
   walls,
   wheal,  // where the skin is numb
+  nick,   // and where it is cut
   needle_shaft,
   needle_hub,
   probe,
@@ -76,9 +77,10 @@ struct RoomOptions {
   // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, and who plans on the
   // CT; never in an attempt.
   bool mentor = false;
-  bool glass = false;                         // with `mentor`: nothing is cut away, the skin can be looked through
-  bool needle = true, probe = true;           // what hands hold
-  std::span<const glm::dvec3> numb_lps_mm{};  // where an anaesthetic was given, of the skin at rest
+  bool glass = false;                          // with `mentor`: nothing is cut away, the skin can be looked through
+  bool needle = true, probe = true;            // what hands hold
+  std::span<const glm::dvec3> numb_lps_mm{};   // where an anaesthetic was given, of the skin at rest
+  std::span<const glm::dvec3> nicks_lps_mm{};  // and where the skin was nicked
 };
 
 // Of a state: the tools where hands hold them. `list` is emptied first.

@@ -132,7 +132,8 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
   bool needle_above = false;
   const bool edges = shows_artefacts(view_);
-  std::optional<std::size_t> entered;  // the sample behind the last interface that is heard
+  std::optional<std::size_t> entered;  // the sample behind the last interface that is heard,
+  double entered_from_mrayl = 0.0;     // and what lies before that
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);
     const double mrayl = table_[tissue].impedance_mrayl;
@@ -148,9 +149,9 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
       if (edges && entered && line.tissue[*entered] == line.tissue[k - 1] && is_round(line.tissue[k - 1]) &&
           shaders::us_is_matched(mrayl))
         lens = {static_cast<double>(k - *entered) * dz, shift_per_mm_[static_cast<std::size_t>(line.tissue[k - 1])],
-                shift_per_mm_[tissue]};
+                shift_per_mm_[tissue], *entered, entered_from_mrayl};
       add_interface(path, static_cast<int>(k), before_mrayl, mrayl, sum_db, lens, line);
-      if (k == 0 || shaders::us_is_heard(reflection)) entered = k;
+      if (k == 0 || shaders::us_is_heard(reflection)) entered = k, entered_from_mrayl = before_mrayl;
       sum_db += shaders::us_step_loss_db(reflection);
       before_mrayl = mrayl;
     }
@@ -202,7 +203,16 @@ void LineWalker::shift(std::size_t first, Line& line) const {
   }
 }
 
-double LineWalker::parting_per_mm(const Lens& lens, double cosine, double depth_mm) const {
+double LineWalker::parting_per_mm(const BeamPath& path, const Lens& lens, double inside_mrayl, int left,
+                                  const Plane& plane, double cosine, double depth_mm) const {
+  if (tells_layers(view_)) {
+    const double into_mm = static_cast<double>(lens.entered) * fan_.sample_mm, left_mm = left * fan_.sample_mm;
+    const Plane into = lens.entered > 0 ? plane_at(path.at(into_mm), lens.before_mrayl, inside_mrayl) : Plane{};
+    if (!into.is_told || !plane.is_told) return 0.0;
+    cosine =
+        shaders::us_round_cosine(path.as_met(into_mm, into.normal), glm::dot(into.normal, path.along(into_mm)),
+                                 path.as_met(left_mm, plane.normal), glm::dot(plane.normal, path.along(left_mm)));
+  }
   const double width_mm =
       shaders::us_lateral_fwhm_mm(std::max(depth_mm, 1.0), shaders::us_wavelength_mm(frequency_mhz_),
                                   view_.probe.f_number, view_.probe.aperture_mm, view_.focus_mm);
@@ -213,10 +223,11 @@ void LineWalker::add_interface(const BeamPath& path, int sample, double before_m
                                double loss_db, const std::optional<Lens>& lens, Line& line) const {
   const double reflection = shaders::us_reflection(before_mrayl, after_mrayl);
   double depth_mm = sample * fan_.sample_mm, cosine = 1.0;
+  Plane plane;
   if (sample > 0) {
     if (!shaders::us_is_heard(reflection)) return;
     // The plane lies in tissue at rest, and the beam there goes along with it.
-    const Plane plane = plane_at(path.at(depth_mm), before_mrayl, after_mrayl);
+    plane = plane_at(path.at(depth_mm), before_mrayl, after_mrayl);
     const double along = glm::dot(plane.normal, path.along(depth_mm));
     if (plane.is_told) cosine = std::clamp(path.facing(depth_mm, plane.normal), 0.0, 1.0);
     // Between voxels, so that a slanted wall is a line and no staircase; not where it is seen from its side.
@@ -224,7 +235,8 @@ void LineWalker::add_interface(const BeamPath& path, int sample, double before_m
       depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));
   }
   const double face = reflection * shaders::us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_db);
-  line.echoes.push_back({depth_mm, face, lens ? parting_per_mm(*lens, cosine, depth_mm) : 0.0});
+  const double parting = lens ? parting_per_mm(path, *lens, before_mrayl, sample, plane, cosine, depth_mm) : 0.0;
+  line.echoes.push_back({depth_mm, face, parting});
   if (std::abs(reflection) < shaders::kUsRepeatsFrom || depth_mm <= 0.0) {
     // Gas at the face itself rings in the lens.
     if (std::abs(reflection) >= shaders::kUsRepeatsFrom)
@@ -267,9 +279,8 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
   const double sine = std::min(1.0, std::abs(z1));
   at.tilt_rad = std::asin(sine);
   const double near_mm = z - needle_->radius_mm / std::max(0.25, std::sqrt(1.0 - sine * sine));
-  constexpr double kLeastWeight = 0.01;
   const double weight = weight_at(tip_x + t * x1, tip_y + t * y1, z);
-  if (near_mm >= 0.0 && near_mm < view_.depth_mm && weight > kLeastWeight) {
+  if (near_mm >= 0.0 && near_mm < view_.depth_mm && weight > kLeastNeedleWeight) {
     at.depth_mm = near_mm;
     at.weight = weight;
     // A strip as wide as the needle, in a Gaussian beam whose width across the strip is:
@@ -281,7 +292,7 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
   }
   if (tip_z >= 0.0 && tip_z < view_.depth_mm) {
     at.tip_weight = weight_at(tip_x, tip_y, tip_z);
-    if (at.tip_weight > kLeastWeight) at.tip_depth_mm = tip_z;
+    if (at.tip_weight > kLeastNeedleWeight) at.tip_depth_mm = tip_z;
   }
   return at;
 }

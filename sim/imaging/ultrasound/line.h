@@ -87,10 +87,14 @@ class LineWalker {
   // The round body that a beam leaves.
   struct Lens {
     double chord_mm, shift_inside, shift_outside;
+    std::size_t entered;  // the first sample in it
+    double before_mrayl;  // of what it was entered from
   };
   void add_interface(const BeamPath& path, int sample, double before_mrayl, double after_mrayl, double loss_db,
                      const std::optional<Lens>& lens, Line& line) const;
-  double parting_per_mm(const Lens& lens, double cosine, double depth_mm) const;
+  // Of a body that is left there by a plane; cosine: to that plane.
+  double parting_per_mm(const BeamPath& path, const Lens& lens, double inside_mrayl, int left, const Plane& plane,
+                        double cosine, double depth_mm) const;
   double border_mm(const BeamPath& path, std::size_t sample, const Line& line) const;
   struct NeedleCrossing;
   NeedleCrossing crossing(const glm::dvec3& start, const glm::dvec3& direction) const;

@@ -17,6 +17,10 @@ namespace seldinger::imaging {
 inline bool shows_artefacts(const UltrasoundView& view) {
   return view.sight_law >= cases::SightLaw::scatter;
 }
+// Layers from round bodies, by both of their sides; the law scatter takes a layer that is tilted for a ball.
+inline bool tells_layers(const UltrasoundView& view) {
+  return view.sight_law >= cases::SightLaw::clutter;
+}
 
 // One a beam; none at all where no beam meets any, or the view shows no artefacts. The surface
 // is a straight line through where neighbouring beams meet it. `motion`: of tissue that moves; else null.

@@ -23,6 +23,9 @@ constexpr double kTipGoneDeg = 75.0, kTipGoneDb = 6.0, kNeedlePointDb = -3.0, kB
 // Ingard, Theoretical Acoustics, 8.1), so thinner needles show less (Schafhalter-Zoppoth 2004).
 constexpr double kNeedleLevelRadiusMm = 0.36;
 
+// What meets less of the beam than this is not drawn: 40 dB below what lies in its middle (design).
+constexpr double kLeastNeedleWeight = 0.01;
+
 // Amplitudes where the needle is: without loss on the way, and as if in the middle of the beam.
 struct NeedleEcho {
   double mirror;  // of the straight shaft; with it come the lines from inside

@@ -268,7 +268,9 @@ UsLineParameters line_parameters(const TissueVolume& tissue, const UltrasoundVie
   p.per_unit = 1.0F / SpeckleField::kUnit;
   p.least_side_mm = static_cast<float>(walker.least_side_mm());
   p.shifts = view.range_error ? 1 : 0;
-  p.edges = shows_artefacts(view) ? 1 : 0;
+  p.edges = !shows_artefacts(view) ? 0
+            : tells_layers(view)   ? shaders::kUsEdgesByBothSides
+                                   : shaders::kUsEdgesByOneSide;
   p.wavelength_mm = static_cast<float>(shaders::us_wavelength_mm(working_mhz(view)));
   p.f_number = static_cast<float>(view.probe.f_number);
   p.aperture_mm = static_cast<float>(view.probe.aperture_mm);

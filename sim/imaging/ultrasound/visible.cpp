@@ -58,7 +58,7 @@ class Sight {
           shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
     }
     if (tissue::count_sources(displacement) > 0)
-      at_rest_.emplace(view, kSightMm, 0.0, [&](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
+      at_rest_ = RestFan::when_asked(view, kSightMm, 0.0, [&](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
         return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
       });
   }
@@ -79,6 +79,7 @@ class Sight {
   bool in_field(const Place& at) const {
     return at.beam >= -0.5 && at.beam <= view_.beams - 0.5 && at.depth_mm >= 0.0 && at.depth_mm <= view_.depth_mm;
   }
+  bool touches(const Place& at) const { return beam_touches(view_, below_skin_mm_, at.beam); }
   bool in_slice(const Place& at, double more_mm) const {
     return std::abs(at.off_plane_mm) <= more_mm + 0.5 * slice_mm(at.depth_mm);
   }
@@ -92,7 +93,9 @@ class Sight {
   // Two-way, from the face down to a depth, as LineWalker adds it up in finer steps.
   double loss_db(double beam, double depth_mm) const {
     if (!beam_touches(view_, below_skin_mm_, beam)) return shaders::kUsDeadDb;
-    const BeamPath path = at_rest_ ? at_rest_->path(beam) : BeamPath(fan_.start_lps_mm(beam), fan_.direction(beam));
+    const double deepest_mm = std::max(depth_mm, shaders::kUsGelMm);
+    const BeamPath path = at_rest_ ? at_rest_->path_down_to(beam, deepest_mm)
+                                   : BeamPath(fan_.start_lps_mm(beam), fan_.direction(beam));
     const int steps = std::max(1, static_cast<int>(std::ceil(depth_mm / kWalkMm)));
     const double dz = depth_mm / steps;
     const auto tissue = [&](double z_mm) { return tissue_at_(path.at(z_mm)); };
@@ -140,22 +143,41 @@ class Sight {
     const double sine = std::min(1.0, std::abs(glm::dot(along, fan_.direction(at.beam))));
     const NeedleEcho echo = needle_echo(view_, needle, at.depth_mm, std::asin(sine));
     const double y = at.off_plane_mm / slice_sigma_mm(at.depth_mm);
-    if (!tip) return echo.shaft() * std::exp(-0.5 * y * y);
+    if (!tip) return drawn(echo.shaft(), std::exp(-0.5 * y * y));
     const BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::max(0.5, at.depth_mm));
     const double off_beam = at.beam - std::clamp(std::round(at.beam), 0.0, view_.beams - 1.0);
     const double x = off_beam * fan_.beam_spacing_mm(at.depth_mm) / width.lateral_sigma_mm;
-    return std::max(echo.tip * std::exp(-0.5 * x * x), echo.shaft()) * std::exp(-0.5 * y * y);
+    const double off_plane = std::exp(-0.5 * y * y);
+    return std::max(drawn(echo.tip, std::exp(-0.5 * x * x), off_plane), drawn(echo.shaft(), off_plane));
+  }
+  // Of the amplitude so much as the beam sees of it; by the newest law nothing where the picture draws nothing.
+  double drawn(double amplitude, double across, double off_plane = 1.0) const {
+    const double weight = across * off_plane;
+    return shows_clutter(view_) && !(weight > kLeastNeedleWeight) ? 0.0 : amplitude * across * off_plane;
   }
 
-  NeedleLevel level(const NeedlePose& needle, double behind_tip_mm) const {
-    const Place at = place(needle.tip_lps_mm - behind_tip_mm * glm::normalize(needle.direction));
+  // Mean square of what lies over all echoes: the receiver's noise, and clutter where the picture has it.
+  double over_all(double depth_mm) const {
+    const double noise = power(kReceiverNoiseDb);
+    return shows_clutter(view_) ? noise + power(clutter_db(view_, depth_mm)) : noise;
+  }
+
+  // Whether speckle alone hides it, whatever is lost on the way.
+  bool is_in_speckle(const NeedlePose& needle, const Place& at, bool tip) const {
+    return decibels(std::pow(needle_amplitude(needle, at, tip), 2.0)) <
+           decibels(scatter_around(at)) + kNeedleAboveDb;
+  }
+  NeedleLevel level(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
+    const Place at = place(p_lps_mm);
     NeedleLevel level;
     level.in_field = in_field(at);
     level.off_plane_mm = at.off_plane_mm;
     if (!level.in_field) return level;
-    const double loss = loss_db(at.beam, at.depth_mm);
-    level.echo_db = decibels(std::pow(needle_amplitude(needle, at, behind_tip_mm == 0.0), 2.0)) - loss;
-    level.background_db = std::max(decibels(scatter_around(at)) - loss, kReceiverNoiseDb);
+    const double loss = loss_db(at.beam, at.depth_mm), scatter = scatter_around(at);
+    level.echo_db = decibels(std::pow(needle_amplitude(needle, at, tip), 2.0)) - loss;
+    // As the picture, the newest law adds up; those before it took the larger (docs/decisions/0090).
+    level.background_db = shows_clutter(view_) ? decibels(scatter * power(-loss) + over_all(at.depth_mm))
+                                               : std::max(decibels(scatter) - loss, kReceiverNoiseDb);
     return level;
   }
 
@@ -200,7 +222,7 @@ class Sight {
     const cases::LesionEcho echo = echo_of(target);
     const double inner_mm = inner_radius_mm(target, echo);
     const double whole = share_of_slice(r_mm, at), core = inner_mm > 0.0 ? share_of_slice(inner_mm, at) : 0.0;
-    const double noise = power(kReceiverNoiseDb), besides_db = decibels(beside + noise);
+    const double noise = over_all(z_mm), besides_db = decibels(beside + noise);
     const double inside = core * power(echo.inside_db) + (whole - core) * power(echo.rim_db);
     level.contrast_db = decibels(through * (inside + (1.0 - whole) * beside_lossless) + noise) - besides_db;
     if (view_.sight_law == cases::SightLaw::half_slice) return level;
@@ -217,7 +239,7 @@ class Sight {
     const double r_mm = target.radius_mm, inner_mm = inner_radius_mm(target, echo);
     const double middle_mm = 0.5 * (r_mm + inner_mm);
     const double behind_mm = std::sqrt(std::max(0.0, r_mm * r_mm - middle_mm * middle_mm));
-    const double share = share_of_slice(behind_mm, at), noise = power(kReceiverNoiseDb);
+    const double share = share_of_slice(behind_mm, at), noise = over_all(at.depth_mm);
     TargetLevel rim = level;
     rim.contrast_db =
         decibels(through * (share * power(echo.rim_db) + (1.0 - share) * beside_lossless) + noise) - besides_db;
@@ -252,30 +274,13 @@ class Looks {
   Looks& operator=(const Looks&) = delete;
   const Sight& middle() const { return looks_.front(); }
 
-  // Levels at a place in the field, loss included; the walk is spared where speckle alone hides the needle.
+  // At a place in the field of the middle one; the walk is spared where speckle hides the needle in every look.
   bool needle_stands_out(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
-    std::array<Shown, kLooks> shown;
-    std::size_t count = 0;
-    double power_of_echo = 0.0;
-    for (const Sight& look : looks_) {
+    const bool is_hidden = std::all_of(looks_.begin(), looks_.end(), [&](const Sight& look) {
       const Place at = look.place(p_lps_mm);
-      if (&look != &middle() && !look.in_field(at)) continue;
-      const double echo = std::pow(look.needle_amplitude(needle, at, tip), 2.0);
-      shown[count++] = {&look, at, echo};
-      power_of_echo += echo;
-    }
-    const auto all = static_cast<double>(count);
-    if (decibels(power_of_echo / all) < decibels(middle().scatter_around(shown.front().at)) + kNeedleAboveDb)
-      return false;
-    double arrives = 0.0;
-    for (const Shown& one : std::span(shown).first(count)) {
-      const double arrives_db =
-          decibels(one.echo) - one.look->loss_db(one.at.beam, one.at.depth_mm) - begun_db(one.at, shown.front().at);
-      if (count == 1) return arrives_db >= kReceiverNoiseDb + kNeedleAboveDb;
-      arrives += power(arrives_db) / all;
-      if (decibels(arrives) >= kReceiverNoiseDb + kNeedleAboveDb) return true;
-    }
-    return false;
+      return !shows(look, at) || look.is_in_speckle(needle, at, tip);
+    });
+    return !is_hidden && level(needle, p_lps_mm, tip).stands_out();
   }
 
   double visible_shaft_mm(const NeedlePose& needle) const {
@@ -290,15 +295,16 @@ class Looks {
     return seen * step_mm;
   }
 
-  NeedleLevel level(const NeedlePose& needle, double behind_tip_mm) const {
-    NeedleLevel mean = middle().level(needle, behind_tip_mm);
-    if (looks_.size() == 1 || !mean.in_field) return mean;
+  NeedleLevel level(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
+    NeedleLevel mean = middle().level(needle, p_lps_mm, tip);
+    const Place in_middle = middle().place(p_lps_mm);
+    if (looks_.size() == 1 || !mean.in_field || !middle().touches(in_middle)) return mean;
     double echo = 0.0, background = 0.0, count = 0.0;
     for (const Sight& look : looks_) {
-      const NeedleLevel one = look.level(needle, behind_tip_mm);
-      if (!one.in_field) continue;
-      const glm::dvec3 p = needle.tip_lps_mm - behind_tip_mm * glm::normalize(needle.direction);
-      const double less_db = begun_db(look.place(p), middle().place(p));
+      const Place at = look.place(p_lps_mm);
+      if (!shows(look, at)) continue;
+      const NeedleLevel one = &look == &middle() ? mean : look.level(needle, p_lps_mm, tip);
+      const double less_db = begun_db(at, in_middle);
       echo += power(one.echo_db - less_db);
       background += power(one.background_db - less_db);
       count += 1.0;
@@ -328,15 +334,14 @@ class Looks {
   }
 
  private:
+  // Whether a place is shown by a look: what the compounder lays over the middle one (Compounder::mean).
+  bool shows(const Sight& look, const Place& at) const {
+    return &look == &middle() || (look.in_field(at) && look.touches(at));
+  }
   // What a look is lowered by where it is laid over the middle one, because it begins deeper.
   double begun_db(const Place& look, const Place& in_middle) const {
     return middle().made_up_db(std::max(0.0, in_middle.depth_mm - look.depth_mm));
   }
-  struct Shown {
-    const Sight* look = nullptr;
-    Place at{};
-    double echo = 0.0;  // its power, without loss
-  };
   const UltrasoundView& view_;
   std::array<UltrasoundView, kLooks> views_;
   std::vector<Sight> looks_;
@@ -390,7 +395,9 @@ NeedleLevel needle_level(const TissueVolume& tissue, const UltrasoundView& view,
   const NeedlePose* needle = usable_needle(inserted);
   return needle == nullptr
              ? NeedleLevel{}
-             : Looks(tissue, view, inserted, depth_below_skin_mm, displacement).level(*needle, behind_tip_mm);
+             : Looks(tissue, view, inserted, depth_below_skin_mm, displacement)
+                   .level(*needle, needle->tip_lps_mm - behind_tip_mm * glm::normalize(needle->direction),
+                          behind_tip_mm == 0.0);
 }
 
 TargetLevel target_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,

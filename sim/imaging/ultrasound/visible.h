@@ -2,7 +2,7 @@
 // and no seed matters. The laws are the picture's own: its beam (probe.h), its needle (needle_echo.h), its tissue.
 //
 // Needle: the echo, weakened by how far it lies off the plane (and a tip by how far off its nearest beam), against
-// the speckle around it under the same loss, or the receiver's noise. Target: see docs/decisions/0013. Left out:
+// the speckle around it under the same loss, clutter and the receiver's noise. Target: see docs/decisions/0013. Left out:
 // the needle's own weak shadow and its tail, echoes of interfaces, the speed of sound.
 #pragma once
 
@@ -45,7 +45,7 @@ struct NeedleLevel {
   bool in_field = false;
   double off_plane_mm = 0.0;
   double echo_db = 0.0;        // as it arrives; liver's speckle at the face is 0
-  double background_db = 0.0;  // likewise, not below the receiver's noise
+  double background_db = 0.0;  // likewise, with what lies over it: clutter and the receiver's noise
   bool stands_out() const noexcept { return in_field && echo_db >= background_db + kNeedleAboveDb; }
 };
 // At a point of the shaft `behind_tip_mm`, ≥ 0; 0: the tip, which shows as the bevel or as the shaft's end.

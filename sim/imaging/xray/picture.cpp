@@ -59,8 +59,36 @@ SELDINGER_FOR_AVX2_TOO void grey_row(const float* log_signal, int count, float l
   }
 }
 
+// Each part follows what is seen, the more the longer ago the frame before was. A panel that has shown nothing yet,
+// or another field, or something later, holds what it sees.
+template <typename OverOpen>
+void add_lag(double field_side_mm, double t_s, const OverOpen& over_open, FluoroscopyPicture& picture) {
+  std::vector<float>& quanta = picture.log_signal;
+  const bool first = picture.lagging[0].size() != quanta.size() || picture.lagging_field_mm != field_side_mm ||
+                     t_s < picture.lagging_t_s;
+  const double frames = first ? 0.0 : (t_s - picture.lagging_t_s) / kLagFrameS;
+  picture.lagging_field_mm = field_side_mm;
+  picture.lagging_t_s = t_s;
+  std::array<float, kLag.size()> share{}, left{};
+  for (std::size_t k = 0; k < kLag.size(); ++k) {
+    if (first) picture.lagging[k].assign(quanta.size(), 0.0F);
+    share[k] = static_cast<float>(kLag[k].share);
+    left[k] = first ? 0.0F : static_cast<float>(base::exact_exp(frames * base::exact_log(kLag[k].left_each_frame)));
+  }
+  over_open([&](std::size_t i) {
+    const float seen = quanta[i];
+    quanta[i] = 0.0F;
+    for (std::size_t k = 0; k < kLag.size(); ++k) {
+      float& held = picture.lagging[k][i];
+      held = seen + left[k] * (held - seen);
+      quanta[i] += share[k] * held;
+    }
+  });
+}
+
 // Of the open field, from quanta to their logarithm. One thread: a sum has one order.
-void add_flaws(const PanelFlaws& flaws, double field_side_mm, float log_open, FluoroscopyPicture& picture) {
+void add_flaws(const PanelFlaws& flaws, double field_side_mm, double t_s, float log_open,
+               FluoroscopyPicture& picture) {
   const OpenField& open = picture.open;
   const auto over_open = [&](const auto& each) {
     for (int row = open.first_row; row < open.end_row; ++row) {
@@ -80,18 +108,10 @@ void add_flaws(const PanelFlaws& flaws, double field_side_mm, float log_open, Fl
     const auto kept = static_cast<float>(1.0 - flaws.glare_share);
     over_open([&](std::size_t i) { quanta[i] = kept * quanta[i] + veil; });
   }
-  if (flaws.lag_share > 0.0) {
-    const bool first = picture.lagging.size() != quanta.size() || picture.lagging_field_mm != field_side_mm;
-    if (first) picture.lagging.assign(quanta.size(), 0.0F);
-    picture.lagging_field_mm = field_side_mm;
-    const auto lag = static_cast<float>(first ? 0.0 : flaws.lag_share);
-    over_open([&](std::size_t i) {
-      quanta[i] += lag * (picture.lagging[i] - quanta[i]);
-      picture.lagging[i] = quanta[i];
-    });
-  } else {
-    picture.lagging.clear();
-  }
+  if (flaws.lags)
+    add_lag(field_side_mm, t_s, over_open, picture);
+  else
+    for (std::vector<float>& part : picture.lagging) part.clear();
   for (int row = open.first_row; row < open.end_row; ++row)
     logs_of_quanta(quanta.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width_px) +
                        static_cast<std::size_t>(open.first_column),
@@ -254,7 +274,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
       if (!settings.flaws.any()) logs_of_quanta(out, columns, log_open);
     }
   });
-  if (settings.flaws.any()) add_flaws(settings.flaws, field_side_mm, log_open, picture);
+  if (settings.flaws.any()) add_flaws(settings.flaws, field_side_mm, settings.t_s, log_open, picture);
   // Grey, by the window asked for or by the picture's own.
   picture.window = settings.window ? *settings.window : window_of(picture.log_signal, width, open);
   over_parts(rows, settings.threads, [&](int first_row, int end_row) {

@@ -5,6 +5,7 @@
 // modelled: focal spot; read-out noise is added before the spread of light, after which it belongs, and is small.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,6 +22,7 @@ struct LogWindow {
 
 struct PictureSettings {
   std::uint64_t seed = 1, frame = 1;  // of the noise
+  double t_s = 0.0;                   // when the pulse was: a panel that lags has lost so much of what it saw
   std::optional<LogWindow> window;    // else from the open field's content
   bool noise = true;
   PanelFlaws flaws;
@@ -34,9 +36,10 @@ struct FluoroscopyPicture {
   OpenField open;
   LogWindow window;
   std::vector<float> blurred;  // between two passes; kept so that the next frame allocates nothing
-  // Of a panel that lags: what is still in it of this frame, in quanta, and the field that its pixels span.
-  std::vector<float> lagging;
-  double lagging_field_mm = 0.0;
+  // Of a panel that lags: what kLag's parts hold after this frame, in quanta, the field that its pixels span, and
+  // when it was.
+  std::array<std::vector<float>, kLag.size()> lagging;
+  double lagging_field_mm = 0.0, lagging_t_s = 0.0;
 };
 
 // `lengths` span the pulse's whole field (field_side_mm of its magnification) at the panel. `picture`'s buffers are

@@ -1,6 +1,7 @@
 // What was seen of needle and target, over time and over the way, and how the needle lay to the picture.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -37,23 +38,23 @@ TEST(Visibility, FramesHoldUntilTheNextAtAnyRate) {
 TEST(Visibility, OfTheOlderLawItIsTheVersionBefore) {
   const auto recording = straight([](double t) { return 10.0 * t; }, 5.0);
   const auto now = measure_all(*make_signals(setting(), recording));
-  for (const auto& [law, expected] : {std::pair{cases::SightLaw::scatter, std::pair{0, 0}},
-                                      {cases::SightLaw::echo, {4, 0}},
-                                      {cases::SightLaw::half_slice, {7, 4}}}) {
+  using Count = std::array<int, 3>;  // of metrics that are one, two and three versions before
+  for (const auto& [law, expected] : {std::pair{cases::SightLaw::scatter, Count{11, 0, 0}},
+                                      {cases::SightLaw::echo, {7, 4, 0}},
+                                      {cases::SightLaw::half_slice, {4, 5, 4}}}) {
     AttemptSetting old = setting();
     old.sight_law = law;
     const auto then = measure_all(*make_signals(old, recording));
     ASSERT_EQ(now.size(), then.size());
-    std::pair one_or_two_before{0, 0};
+    Count before{};
     for (std::size_t i = 0; i < now.size(); ++i) {
       const MetricInfo& info = *find_metric(now[i].id);
       EXPECT_EQ(now[i].version, info.version) << now[i].id;
       EXPECT_GE(then[i].version, 1) << now[i].id;
       EXPECT_EQ(then[i].value, now[i].value) << now[i].id;
-      if (then[i].version == info.version - 1) ++one_or_two_before.first;
-      if (then[i].version == info.version - 2) ++one_or_two_before.second;
+      for (int k = 1; k <= 3; ++k) before[static_cast<std::size_t>(k - 1)] += then[i].version == info.version - k;
     }
-    EXPECT_EQ(one_or_two_before, expected) << base::name_of(cases::kSightLawNames, law);
+    EXPECT_EQ(before, expected) << base::name_of(cases::kSightLawNames, law);
   }
 }
 

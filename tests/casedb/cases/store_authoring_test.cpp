@@ -248,7 +248,8 @@ TEST_F(AuthoringTest, WhoBreathedBeforeTheNewestLawMovesAsBefore) {
         "<> 'draft' BEGIN SELECT RAISE(ABORT, 'kept'); END"})
     library_.database().run(earlier);
   library_.database().run("UPDATE training_case SET state = 'published' WHERE case_id = '" + published + "'");
-  library_.database().run(std::string(library_schema().steps[38].content));
+  for (const std::size_t step : {38U, 45U})
+    library_.database().run(std::string(library_schema().steps[step].content));
 
   const auto breathing_of = [&](const std::string& case_id) {
     return find_case(library_, case_id).value().motion.breathing().value();
@@ -265,6 +266,7 @@ TEST_F(AuthoringTest, WhoBreathedBeforeTheNewestLawMovesAsBefore) {
     EXPECT_NEAR(now.amplitude_mm.y, 0.3 * 16.0 * 5.0 / 12.0, 1e-12);
     EXPECT_NEAR(now.hold_spread * now.amplitude_mm.z, cases::breath::kHoldSpreadMm, 1e-12);
     EXPECT_EQ(now.hold_level, 0.0);
+    EXPECT_TRUE(now.slides);
   }
   // What follows by the newest law keeps its depth, and a CT that was taken in inspiration is where breath is held.
   CaseSetting setting = find_case(library_, next).value();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 
 #include "sim/engine/step.h"
@@ -79,6 +81,43 @@ TEST(MovingTissue, EachHandFindsWhatTheOthersDo) {
   EXPECT_EQ(tissue::count_sources(tissue.seen(state, hands)), 4);
   scene.yields = false;
   EXPECT_EQ(tissue::count_sources(tissue.seen(state, hands)), 1);
+}
+
+// By the newest law of breath organs slide along the wall, where classes tell one; by the laws of before pictures
+// show what they showed, bit for bit.
+TEST(MovingTissue, OrgansSlideOnlyWhereTheCaseSaysSo) {
+  cases::Case scene = body();
+  scene.volume = volume::make_volume({61, 61, 31}, glm::dvec3(4.0), glm::dmat3(1.0), {-120.0, -120.0, -60.0});
+  for (int k = 0; k < 31; ++k)
+    for (int j = 0; j < 61; ++j)
+      for (int i = 0; i < 61; ++i) {
+        const double from_axis = glm::length(glm::dvec2(4.0 * i - 120.0, 4.0 * j - 120.0));
+        const bool spine = std::abs(4.0 * i - 120.0) < 10.0 && std::abs(4.0 * j - 180.0) < 10.0;
+        const bool sternum = std::abs(4.0 * i - 120.0) < 10.0 && std::abs(4.0 * j - 50.0) < 6.0;
+        scene.classes.push_back(from_axis > 90.0   ? volume::TissueClass::air
+                                : spine || sternum ? volume::TissueClass::bone
+                                : from_axis > 70.0 ? volume::TissueClass::muscle
+                                                   : volume::TissueClass::liver);
+      }
+  scene.breathing.emplace();
+  cases::State state;
+  state.breath.level = 1.0;
+  const auto seen = [&] { return MovingTissue(scene).seen(state, {}); };
+  const tissue::Displacement before = seen();
+  scene.breathing->slides = true;
+  const tissue::Displacement now = seen();
+  EXPECT_NE(std::memcmp(&before, &now, sizeof now), 0);
+  const auto down_mm = [](const tissue::Displacement& d, double x_mm) {
+    return -tissue::displaced(d, {x_mm, -20, 0}).z;
+  };
+  EXPECT_GT(down_mm(before, 78.0), 0.5);
+  EXPECT_EQ(down_mm(now, 78.0), 0.0) << "of the wall";
+  EXPECT_GT(down_mm(now, 50.0), down_mm(before, 50.0)) << "of what touches it";
+  scene.classes.clear();  // without classes there is no wall to be told
+  const tissue::Displacement untold = seen();
+  scene.breathing->slides = false;
+  const tissue::Displacement same = seen();
+  EXPECT_EQ(std::memcmp(&untold, &same, sizeof same), 0);
 }
 
 // By the newest law of touch the kidney that the needle presses goes along and turns, the other does not; by the

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "shaders/shared/ultrasound_cube.glsl.h"
 #include "shaders/shared/ultrasound_line.glsl.h"
@@ -71,25 +72,46 @@ tissue::SlabPart part_of(const UltrasoundView& view, const Fan& fan, double besi
 
 }  // namespace
 
-RestFan::RestFan(const UltrasoundView& view, double spacing_mm, double beside, const RestOf& rest_of)
-    : fan_(fan_of(view)) {
+RestFan::RestFan(const UltrasoundView& view, double spacing_mm, double beside) : fan_(fan_of(view)) {
   const double beams = view.beams - 1.0 + 2.0 * beside;
   rows_ = std::max(1, static_cast<int>(std::ceil(beams * fan_.beam_spacing_mm(view.depth_mm) / spacing_mm))) + 1;
   depths_ = std::max(1, static_cast<int>(std::ceil(view.depth_mm / spacing_mm))) + 1;
   first_beam_ = -beside;
   rows_per_beam_ = (rows_ - 1) / beams;
   depths_per_mm_ = (depths_ - 1) / view.depth_mm;
-  back_mm_.reserve(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(depths_));
+  back_mm_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(depths_),
+                  glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
+}
+
+RestFan::RestFan(const UltrasoundView& view, double spacing_mm, double beside, const RestOf& rest_of)
+    : RestFan(view, spacing_mm, beside) {
+  std::size_t at_node = 0;
   for (int row = 0; row < rows_; ++row) {
-    const double beam = first_beam_ + row / rows_per_beam_;
+    const double beam = beam_of(row);
     const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
     glm::dvec3 back_mm(0.0);
     for (int d = 0; d < depths_; ++d) {
       const glm::dvec3 at = start + (d / depths_per_mm_) * direction;
       back_mm = rest_of(at, at + back_mm) - at;
-      back_mm_.push_back(back_mm);
+      back_mm_[at_node++] = back_mm;
     }
   }
+}
+
+RestFan RestFan::when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOf rest_of) {
+  RestFan fan(view, spacing_mm, beside);
+  fan.when_asked_ = std::move(rest_of);
+  return fan;
+}
+
+const glm::dvec3& RestFan::node(int row, int depth) const {
+  glm::dvec3& back_mm =
+      back_mm_[static_cast<std::size_t>(row) * static_cast<std::size_t>(depths_) + static_cast<std::size_t>(depth)];
+  if (when_asked_ && std::isnan(back_mm.x)) {
+    const glm::dvec3 at = point_of(row, depth);
+    back_mm = when_asked_(at, at) - at;
+  }
+  return back_mm;
 }
 
 RestFan::Between RestFan::between(double beam) const noexcept {
@@ -98,38 +120,50 @@ RestFan::Between RestFan::between(double beam) const noexcept {
   return {row, at - row};
 }
 
-glm::dvec3 RestFan::rest_of(double beam, double depth_mm) const noexcept {
+glm::dvec3 RestFan::rest_of(double beam, double depth_mm) const {
   const Between rows = between(beam);
   const double at = depth_mm * depths_per_mm_;
   const int d = at > 0.0 ? static_cast<int>(std::min(at, depths_ - 2.0)) : 0;
-  const glm::dvec3* low = back_mm_.data() + static_cast<std::ptrdiff_t>(rows.row) * depths_ + d;
-  const glm::dvec3* high = low + depths_;
-  const glm::dvec3 upper = low[0] + rows.part * (high[0] - low[0]), lower = low[1] + rows.part * (high[1] - low[1]);
+  const auto across = [&](int depth) {
+    const glm::dvec3& low = node(rows.row, depth);
+    return low + rows.part * (node(rows.row + 1, depth) - low);
+  };
+  const glm::dvec3 upper = across(d), lower = across(d + 1);
   return fan_.start_lps_mm(beam) + depth_mm * fan_.direction(beam) + upper + (at - d) * (lower - upper);
 }
 
-std::vector<glm::dvec3> RestFan::back_of(double beam) const {
+std::vector<glm::dvec3> RestFan::back_of(double beam, int depths) const {
   const Between rows = between(beam);
-  const glm::dvec3* low = back_mm_.data() + static_cast<std::ptrdiff_t>(rows.row) * depths_;
-  const glm::dvec3* high = low + depths_;
-  std::vector<glm::dvec3> back_mm(static_cast<std::size_t>(depths_));
-  for (std::size_t d = 0; d < back_mm.size(); ++d) back_mm[d] = low[d] + rows.part * (high[d] - low[d]);
+  std::vector<glm::dvec3> back_mm(static_cast<std::size_t>(depths));
+  for (int d = 0; d < depths; ++d) {
+    const glm::dvec3& low = node(rows.row, d);
+    back_mm[static_cast<std::size_t>(d)] = low + rows.part * (node(rows.row + 1, d) - low);
+  }
   return back_mm;
 }
 
-BeamPath RestFan::path(double beam) const {
-  return {fan_.start_lps_mm(beam), fan_.direction(beam), back_of(beam), {}, depths_per_mm_};
+BeamPath RestFan::path(double beam, int depths) const {
+  return {fan_.start_lps_mm(beam), fan_.direction(beam), back_of(beam, depths), {}, depths_per_mm_};
+}
+BeamPath RestFan::path_down_to(double beam, double depth_mm) const {
+  const double at = std::clamp(depth_mm * depths_per_mm_, 0.0, depths_ - 2.0);
+  return path(beam, static_cast<int>(at) + 2);
 }
 
-double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcept {
-  if (aside_.empty()) return std::abs(glm::dot(normal, along(depth_mm)));
+glm::dvec3 BeamPath::as_met(double depth_mm, const glm::dvec3& normal) const noexcept {
+  if (aside_.empty()) return normal;
   const double nodes = depth_mm * per_mm_;
   const std::size_t node = node_at(nodes);
   const double part = nodes - static_cast<double>(node);
   const Aside &low = aside_[node], &high = aside_[node + 1];
-  return shaders::us_facing(glm::dot(normal, along(depth_mm)),
-                            glm::dot(normal, low.across + part * (high.across - low.across)),
-                            glm::dot(normal, low.out + part * (high.out - low.out)));
+  return {glm::dot(normal, along(depth_mm)), glm::dot(normal, low.across + part * (high.across - low.across)),
+          glm::dot(normal, low.out + part * (high.out - low.out))};
+}
+
+double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcept {
+  if (aside_.empty()) return std::abs(glm::dot(normal, along(depth_mm)));
+  const glm::dvec3 met = as_met(depth_mm, normal);
+  return shaders::us_facing(met.x, met.y, met.z);
 }
 
 PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement)

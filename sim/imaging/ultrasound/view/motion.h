@@ -30,7 +30,10 @@ class BeamPath {
         aside_(std::move(aside)),
         per_mm_(per_mm) {}
 
-  // Cosine of the angle between the beam and an interface's normal, which is told at rest.
+  // An interface's normal, which is told at rest, as the beam meets it: along it, across it and out of the plane;
+  // of tissue that lies still as it is.
+  glm::dvec3 as_met(double depth_mm, const glm::dvec3& normal) const noexcept;
+  // Cosine of the angle between the beam and such a normal.
   double facing(double depth_mm, const glm::dvec3& normal) const noexcept;
 
   // X of the tissue at a depth.
@@ -64,10 +67,14 @@ class RestFan {
   // rest_of(x, guess) → X. `beside`: beams beyond the first and the last that are asked for, too.
   using RestOf = std::function<glm::dvec3(const glm::dvec3& at_lps_mm, const glm::dvec3& guess_lps_mm)>;
   RestFan(const UltrasoundView& view, double spacing_mm, double beside, const RestOf& rest_of);
+  // For a few beams of it: each node is found when it is first asked for, from where it is as a guess. One
+  // thread's; without back_mm().
+  static RestFan when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOf rest_of);
 
-  glm::dvec3 rest_of(double beam, double depth_mm) const noexcept;
-  BeamPath path(double beam) const;  // without Asides
-  std::vector<glm::dvec3> back_of(double beam) const;
+  glm::dvec3 rest_of(double beam, double depth_mm) const;
+  BeamPath path(double beam) const { return path(beam, depths_); }  // without Asides
+  BeamPath path_down_to(double beam, double depth_mm) const;        // not to be asked below that
+  std::vector<glm::dvec3> back_of(double beam) const { return back_of(beam, depths_); }
   glm::dvec3 start_lps_mm(double beam) const noexcept { return fan_.start_lps_mm(beam); }
   glm::dvec3 direction(double beam) const noexcept { return fan_.direction(beam); }
 
@@ -86,10 +93,20 @@ class RestFan {
   Between between(double beam) const noexcept;
 
  private:
+  RestFan(const UltrasoundView& view, double spacing_mm, double beside);
+  glm::dvec3 point_of(int row, int depth) const noexcept {
+    const double beam = beam_of(row);
+    return fan_.start_lps_mm(beam) + (depth / depths_per_mm_) * fan_.direction(beam);
+  }
+  const glm::dvec3& node(int row, int depth) const;
+  BeamPath path(double beam, int depths) const;
+  std::vector<glm::dvec3> back_of(double beam, int depths) const;
+
   Fan fan_;
   int rows_, depths_;  // nodes
   double first_beam_, rows_per_beam_, depths_per_mm_;
-  std::vector<glm::dvec3> back_mm_;
+  RestOf when_asked_;                        // none: all nodes are there
+  mutable std::vector<glm::dvec3> back_mm_;  // NaN: not asked for yet
 };
 
 class PictureMotion {

@@ -9,7 +9,9 @@
 #include <limits>
 #include <utility>
 
+#include "casedb/import/skin/closed_mesh.h"
 #include "casedb/import/skin/surface.h"
+#include "sim/volume/phantom.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -130,6 +132,8 @@ TEST(Prepare, SurfaceSettingsCostWhatTheyTell) {
     EXPECT_GE(found.most_mm, found.most_95_mm);
     EXPECT_GE(found.most_95_mm, found.mean_mm);
     EXPECT_LT(found.most_mm, 2.0);
+    EXPECT_NEAR(found.decimated, share, 0.05);
+    EXPECT_EQ(less_decimated(fewer, found), "");
     before = found.triangles;
   }
   Preparation coarse = none;
@@ -143,6 +147,25 @@ TEST(Prepare, SurfaceSettingsCostWhatTheyTell) {
   const Fidelity half = fidelity(with(&Preparation::shrink_i, 2.0));
   EXPECT_GT(half.mean_hu, 1.0);
   EXPECT_LT(half.most_mm, 3.0);
+}
+
+// Where taking away as much would open the skin, it stays closed, and both import and window say that less was
+// taken.
+TEST(Prepare, ASkinThatWouldOpenKeepsMoreAndSaysSo) {
+  Preparation most;
+  most.skin_hu = -500.0;
+  most.skin_decimate = 0.98;
+  const volume::Volume torso = volume::make_phantom().volume;
+  const Prepared prepared = prepare(torso, most).value();
+  EXPECT_TRUE(is_closed(prepared.skin));
+  Fidelity found;
+  found.decimated = prepared.decimated;
+  const std::string less = less_decimated(most, found);
+  EXPECT_EQ(less.empty(), prepared.decimated > 0.93) << prepared.decimated;
+  found.decimated = 0.61;
+  EXPECT_EQ(less_decimated(most, found),
+            "61 % of the skin's triangles were taken away, not 98: more would have opened it");
+  EXPECT_NE(told_of(most, prepared, found).text.find(less_decimated(most, found)), std::string::npos);
 }
 
 TEST(Prepare, DenoisingIsTold) {

@@ -59,6 +59,28 @@ TEST(DrawList, AWhealLiesOnTheSkinWhereItIsNumb) {
   EXPECT_FALSE(wheal->over_all) << "a thing in the room, not a mark over it";
 }
 
+TEST(DrawList, ANickIsASlitInTheSkinAcrossTheBody) {
+  const cases::Case scene = ball_case();
+  const glm::dvec3 skin = scene.skin_index.closest_skin(*scene.planned_entry_lps_mm).point_lps_mm;
+  EXPECT_EQ(find(list_of(scene, ball_state()), RoomPart::nick), nullptr);
+  // Where the needle pointed: as far above the skin as it was held.
+  const glm::dvec3 places[] = {skin + 0.5 * glm::normalize(skin), skin};
+  RoomOptions options;
+  options.nicks_lps_mm = places;
+  const DrawList list = list_of(scene, ball_state(), options);
+  const auto count = std::count_if(list.items.begin(), list.items.end(),
+                                   [](const RoomItem& item) { return item.part == RoomPart::nick; });
+  EXPECT_EQ(count, 2);
+  const RoomItem* nick = find(list, RoomPart::nick);
+  ASSERT_NE(nick, nullptr);
+  EXPECT_LT(glm::distance(placed(*nick, {0.0, 0.0, 0.0}), skin), 0.1);
+  const auto half_mm = [&](const glm::dvec3& axis) { return glm::distance(placed(*nick, axis), skin); };
+  EXPECT_NEAR(2.0 * half_mm({1.0, 0.0, 0.0}), 4.0, 0.2) << "a blade's prick: 3 to 5 mm";
+  EXPECT_LT(half_mm({0.0, 1.0, 0.0}), 1.0);
+  EXPECT_LT(half_mm({0.0, 0.0, 1.0}), 0.5);
+  EXPECT_FALSE(nick->over_all) << "a thing in the room, not a mark over it";
+}
+
 TEST(DrawList, HelpGrowsByLevels) {
   const std::vector<std::vector<RoomPart>> more = {{},
                                                    {RoomPart::scan_plane},

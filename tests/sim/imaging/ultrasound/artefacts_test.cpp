@@ -79,19 +79,46 @@ TEST(EdgeShadow, IsSeenBehindACystAsSphereAndInTheVolume) {
   }
 }
 
-// What runs along the skin is no round body: fat of a wall and water before liver are flat.
-TEST(EdgeShadow, IsNotCastByLayers) {
-  for (const TissueClass flat : {TissueClass::fluid, TissueClass::vessel})
-    for (const TissueClass beyond : {TissueClass::liver, TissueClass::fat}) {
-      const Scene layers = scene([&](const glm::dvec3& p) {
-        if (p.y < 15.0 + 0.3 * p.x) return TissueClass::muscle;
-        return p.y < 30.0 + 0.3 * p.x ? flat : beyond;
-      });
-      const UltrasoundView view = straight_view(80.0);
-      UltrasoundView old = view;
-      old.sight_law = cases::SightLaw::echo;
-      EXPECT_EQ(polar_of(layers, view).envelope, polar_of(layers, old).envelope);
+// By both normals of a ball, and of a layer, as tilted as may be and turned out of the plane.
+TEST(EdgeShadow, ABallIsToldFromALayerByItsTwoSides) {
+  const glm::dvec3 beam(0.0, 1.0, 0.0);
+  for (const double turn : {0.0, 0.7, 1.9})
+    for (double sine = 0.0; sine < 0.96; sine += 0.05) {
+      const double cosine = std::sqrt(1.0 - sine * sine);
+      const glm::dvec3 aside(std::cos(turn), 0.0, std::sin(turn));
+      // Where a beam `sine` radii off the middle meets the ball, and where it leaves it.
+      const glm::dvec3 into = cosine * beam - sine * aside, out_of = cosine * beam + sine * aside;
+      EXPECT_NEAR(shaders::us_round_cosine(into, cosine, out_of, cosine), cosine, 1e-12);
+      EXPECT_EQ(shaders::us_round_cosine(into, cosine, into, cosine), 1.0);
+      // A cylinder whose axis leans along the beam by 20° has the lean of its axis on both sides.
+      const glm::dvec3 axis = std::cos(0.35) * glm::dvec3(0.0, 0.0, 1.0) + std::sin(0.35) * beam,
+                       up = glm::cross(glm::dvec3(1.0, 0.0, 0.0), axis) * -1.0;
+      const double facing = up.y * cosine;
+      const glm::dvec3 near = cosine * up - sine * glm::dvec3(1, 0, 0),
+                       far = cosine * up + sine * glm::dvec3(1, 0, 0);
+      EXPECT_NEAR(shaders::us_round_cosine(near, facing, far, facing), 1.0 / std::hypot(1.0, sine / facing), 1e-12);
     }
+}
+
+// What has two sides that run along each other is no round body, at any tilt.
+TEST(EdgeShadow, IsNotCastByLayers) {
+  for (const double slope : {0.3, 1.0, 2.2})
+    for (const TissueClass flat : {TissueClass::fluid, TissueClass::vessel})
+      for (const TissueClass beyond : {TissueClass::liver, TissueClass::fat}) {
+        const Scene layers = scene([&](const glm::dvec3& p) {
+          if (p.y < 15.0 + slope * p.x) return TissueClass::muscle;
+          return p.y < 25.0 + slope * p.x ? flat : beyond;
+        });
+        const UltrasoundView view = straight_view(80.0);
+        UltrasoundView old = view;
+        old.sight_law = cases::SightLaw::echo;
+        EXPECT_EQ(polar_of(layers, view).envelope, polar_of(layers, old).envelope) << slope;
+        if (slope > 2.0 && flat == TissueClass::fluid && beyond == TissueClass::liver) {
+          old.sight_law = cases::SightLaw::scatter;
+          EXPECT_NE(polar_of(layers, view).envelope, polar_of(layers, old).envelope)
+              << "what was published keeps the shadow of a ball";
+        }
+      }
 }
 
 // Liver down to lung, whose surface lies 60 mm deep and rises to the right; in the liver a cyst.

@@ -250,6 +250,47 @@ TEST(UltrasoundMotion, AJiggledNeedleShowsAroundItAndLessFartherAway) {
   }
 }
 
+// What is told asks for a few beams of a fan: node by node it has the bits of all of it.
+TEST(UltrasoundMotion, AFanThatIsAskedHasTheBitsOfAWholeOne) {
+  const auto displacement = pressed(8.0);
+  for (const UltrasoundView& view : {curved_view(110.0), straight_view(45.0)}) {
+    int asked = 0, all = 0;
+    const auto counted = [&](int& count) {
+      return [&count, &displacement](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
+        ++count;
+        return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
+      };
+    };
+    const RestFan whole(view, 5.0, 0.0, counted(all));
+    const RestFan fan = RestFan::when_asked(view, 5.0, 0.0, counted(asked));
+    EXPECT_EQ(asked, 0);
+    for (const double beam : {-0.4, 31.0, 33.7, view.beams - 0.6})
+      for (const double depth_mm : {0.0, 2.9, 0.31 * view.depth_mm, view.depth_mm}) {
+        EXPECT_EQ(fan.rest_of(beam, depth_mm), whole.rest_of(beam, depth_mm));
+        const BeamPath down = fan.path_down_to(beam, depth_mm), path = whole.path(beam);
+        for (double z_mm = 0.0; z_mm <= depth_mm; z_mm += 0.37) EXPECT_EQ(down.at(z_mm), path.at(z_mm));
+        EXPECT_EQ(down.at(depth_mm), path.at(depth_mm));
+      }
+    EXPECT_GT(asked, 0);
+    EXPECT_LT(asked, all);
+    const int before = asked;
+    static_cast<void>(fan.path(31.0));
+    EXPECT_EQ(asked, before) << "nothing is found twice";
+  }
+}
+
+// The two sides of a layer run along each other where they were pressed, too.
+TEST(UltrasoundMotion, ALayerThatIsMovedCastsNoShadow) {
+  const Scene s = scene([](const glm::dvec3& p) {
+    if (p.y < 15.0 + p.x) return TissueClass::muscle;
+    return p.y < 30.0 + p.x ? TissueClass::fluid : TissueClass::liver;
+  });
+  const UltrasoundView view = straight_view(60.0);
+  UltrasoundView old = view;
+  old.sight_law = cases::SightLaw::echo;
+  EXPECT_EQ(moved(s, view, pressed(5.0)).envelope, moved(s, old, pressed(5.0)).envelope);
+}
+
 TEST(UltrasoundMotion, ThreadsDoNotMatter) {
   const Scene s = layers();
   for (UltrasoundView view : views()) {
