@@ -170,8 +170,8 @@ TEST(Surrogate, FollowsAbilityByTheRightAmount) {
   EXPECT_NEAR(mean[0.8] - mean[0.0], -0.32, 3.0 * std::hypot(0.72 * std::sqrt(2.0 / 18'000.0), 0.8 * 0.013));
 }
 
-// Attempts of kinds: who draws back n times goes 60 + 110 n mm, give or take 4. The able draw back less. Where
-// counts were moved apart from ways, ways would lie between the kinds, and the two would hang together less.
+// Attempts of kinds: who draws back n times goes 60 + 110 n mm, give or take 4. The able draw back less. Were
+// counts moved apart from ways, the rank correlation of the two would be .06 too small.
 TEST(Surrogate, KindsOfAttemptsStayKinds) {
   const SurrogateMark mark = known_mark();
   const auto of_kinds = [&](const std::vector<double>& shifts, std::uint64_t seed, std::size_t count) {
@@ -194,8 +194,8 @@ TEST(Surrogate, KindsOfAttemptsStayKinds) {
   const auto surrogate = Surrogate::fit(mark, of_kinds({-0.6, 0.0, 0.6, 1.2, 1.8}, 1, 3000));
   const std::size_t count = surrogate->index_of("withdrawals_partial");
   for (const double shift : {0.0, 1.2}) {
-    const auto held_out = of_kinds({shift}, 77, 2000);
-    const auto agreement = agreement_of(*surrogate, held_out, 10, 3);
+    const auto held_out = of_kinds({shift}, 77, 1000);
+    const auto agreement = agreement_of(*surrogate, held_out, 5, 3);
     EXPECT_EQ(agreement.pairs, 1U);
     EXPECT_LT(agreement.worst_rank_correlation, 0.03) << shift;
     EXPECT_EQ(agreement.beyond_chance.quantiles, 0U) << shift;
@@ -206,8 +206,8 @@ TEST(Surrogate, KindsOfAttemptsStayKinds) {
       drawn += *values[count];
     }
     const auto n = static_cast<double>(held_out.size());
-    EXPECT_NEAR(drawn / n, whole / n, 0.08)
-        << shift;  // three errors of 2,000 and 3,000 with a variance of about .8
+    // Three errors of 1,000 whole and drawn ones, and of the 3,000, with a variance of about .8.
+    EXPECT_NEAR(drawn / n, whole / n, 0.13) << shift;
   }
 }
 
