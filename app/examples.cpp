@@ -50,6 +50,8 @@ constexpr std::string_view kLines[] = {
     "simulate --case Built --operator novice --people 3 --json",
     "simulate merge other --library first-hour",
     "surrogate fit --case 'Drill 1' --attempts 60 --out drill.json --library first-hour",
+    "surrogate fit --case 'Drill 1' --attempts 120 --shard 2/2 --out second-half.json --library first-hour",
+    "surrogate fit --from drill.json --from second-half.json --out both.json",
     "surrogate fit --case 'Drill 1' --group novice --attempts 60 --seed 2 --out novices.json --library first-hour",
     "surrogate check --case 'Drill 1' --surrogate drill.json --group novice --attempts 30 --library first-hour",
     "surrogate check --surrogate drill.json --against novices.json",

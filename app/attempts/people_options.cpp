@@ -5,6 +5,7 @@
 #include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/cli/shard.h"
 #include "app/cli/words.h"
 #include "assessment/population/group_json.h"
 #include "casedb/people/cohorts.h"
@@ -46,22 +47,6 @@ std::vector<double> session_days(const Arguments& arguments) {
   return days;
 }
 
-// "2/8"
-void read_shard(const Arguments& arguments, session::PeopleWish& wish) {
-  if (!arguments.has("--shard")) return;
-  const std::string text = arguments.text("--shard");
-  const std::size_t slash = text.find('/');
-  const auto part = [](const std::string& digits) {
-    const double number = parse_number(digits).value_or(0.0);
-    const bool whole = number >= 1.0 && number <= 100'000.0 && number == std::floor(number);
-    return whole ? static_cast<std::size_t>(number) : std::size_t{0};
-  };
-  wish.shard = part(text.substr(0, slash));
-  wish.shards = slash == text.npos ? 0 : part(text.substr(slash + 1));
-  if (wish.shard == 0 || wish.shards == 0 || wish.shard > wish.shards)
-    throw UsageError("--shard is which of how many: 2/8");
-}
-
 }  // namespace
 
 base::Result<std::optional<session::PeopleWish>> people_wish(const Arguments& arguments,
@@ -73,7 +58,9 @@ base::Result<std::optional<session::PeopleWish>> people_wish(const Arguments& ar
     if (!group) return group.error();
     if (*group) {
       wish = session::PeopleWish{std::move(**group), seed, *people, count, session_days(arguments)};
-      read_shard(arguments, *wish);
+      const Shard shard = shard_of(arguments);
+      wish->shard = shard.number;
+      wish->shards = shard.of;
     }
   }
   for (const char* option : {"--days", "--shard", "--cohort"})

@@ -3,12 +3,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "app/acting/acting.h"
 #include "app/attempts/this_program.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/cli/shard.h"
+#include "app/cli/words.h"
 #include "app/population/agreement_text.h"
 #include "app/population/effects_text.h"
 #include "app/population/open_surrogate.h"
@@ -43,6 +47,14 @@ std::vector<population::Group> groups_of(const Arguments& arguments, std::vector
   return groups;
 }
 
+// What is about simulating, where attempts come from files.
+void refuse_beside(const char* files, std::vector<const char*> others, const Arguments& arguments) {
+  for (const char* option : {"--case", "--library", "--group", "--attempts", "--seed", "--jobs"})
+    others.push_back(option);
+  for (const char* option : others)
+    if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with " + files);
+}
+
 struct Ready {
   casedb::Library library;
   session::Simulation simulation;
@@ -65,15 +77,39 @@ base::Result<Ready> ready(const Arguments& arguments, int attempts, int fewest, 
                static_cast<std::size_t>(jobs), static_cast<std::uint64_t>(first)};
 }
 
+// Simulated now, with the mark that they have for it.
+base::Result<population::Surrogate> fitted_now(const Arguments& arguments,
+                                               const std::vector<population::Group>& groups) {
+  auto made = ready(arguments, 600, static_cast<int>(population::Surrogate::kFewest), 1);
+  if (!made) return made.error();
+  const Numbered people = numbered(shard_of(arguments), made->attempts);
+  auto points = simulated_points(made->simulation, groups, made->seed, people, made->jobs);
+  if (!points) return points.error();
+  return population::Surrogate::fit(mark_of_case(made->library, made->simulation), std::move(*points));
+}
+
+// Of files that `surrogate fit` wrote of parts of them, all of one mark.
+base::Result<population::Surrogate> fitted_from_files(const Arguments& arguments) {
+  std::optional<population::SurrogateMark> mark;
+  std::vector<population::SimulatedPoint> points;
+  for (const std::string& file : arguments.all("--from")) {
+    const auto part = surrogate_in("--from", file);
+    if (!part) return part.error();
+    if (!mark) mark = part->mark();
+    if (const std::string differs = difference(*mark, part->mark()); !differs.empty())
+      return base::Error{"other_surrogate", "the attempts of " + shown(file) + " are of " + differs};
+    if (!population::add_once(part->attempts(), points))
+      return base::Error{"other_surrogate", "one attempt is in two files, and differs: " + shown(file)};
+  }
+  return population::Surrogate::fit(std::move(*mark), std::move(points));
+}
+
 int run_surrogate_fit(const Arguments& arguments) {
   const auto out = file_of("--out", arguments.required("--out"), {".json"});
   const auto groups = groups_of(arguments, fitted_groups());
-  auto made = ready(arguments, 600, static_cast<int>(population::Surrogate::kFewest), 1);
-  if (!made) return refuse(made.error());
-  auto points = simulated_points(made->simulation, groups, made->seed, made->attempts, made->jobs);
-  if (!points) return refuse(points.error());
-  const auto surrogate =
-      population::Surrogate::fit(mark_of_case(made->library, made->simulation), std::move(*points));
+  const bool from_files = arguments.has("--from");
+  if (from_files) refuse_beside("--from", {"--shard"}, arguments);
+  const auto surrogate = from_files ? fitted_from_files(arguments) : fitted_now(arguments, groups);
   if (!surrogate) return refuse(surrogate.error());
   write_file(out, surrogate->to_json());
   if (arguments.has("--json"))
@@ -110,7 +146,7 @@ base::Result<std::vector<Level>> levels_of_groups(Ready& made, const std::vector
     return base::Error{"other_surrogate", "the surrogate is of " + other};
   std::vector<Level> levels;
   for (const population::Group& group : groups) {
-    auto points = simulated_points(made.simulation, {group}, made.seed, made.attempts, made.jobs);
+    auto points = simulated_points(made.simulation, {group}, made.seed, {1, made.attempts}, made.jobs);
     if (!points) return points.error();
     levels.push_back({group.name, std::move(*points)});
   }
@@ -123,8 +159,7 @@ int run_surrogate_check(const Arguments& arguments) {
                             *population::named_group("expert")});
   std::optional<Ready> simulated_by;
   if (arguments.has("--against")) {
-    for (const char* option : {"--case", "--library", "--group", "--attempts", "--seed", "--jobs"})
-      if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with --against");
+    refuse_beside("--against", {}, arguments);
   } else {
     auto simulating = ready(arguments, 500, 30, 1'000'001);
     if (!simulating) return refuse(simulating.error());
@@ -176,8 +211,19 @@ constexpr Option kGroup{
     "may be given many times. Default: groups from -0.6 to 1.8",
     true};
 constexpr Option kFitOptions[] = {
-    kLibrary, kCase, {"--attempts", "N", "to fit it to; default 600"}, {"--seed", "N", "of the people; default 1"},
-    kGroup,   kJobs, {"--out", "FILE.json", "the new file"},           kJson};
+    kLibrary,
+    kCase,
+    {"--attempts", "N", "to fit it to; default 600"},
+    {"--seed", "N", "of the people; default 1"},
+    kGroup,
+    {"--shard", "I/N", "only the I-th of N parts of these attempts: N calls make them all, each once"},
+    {"--from", "FILE.json",
+     "instead of simulating: what `seldinger surrogate fit` wrote of a part; may be given many times. An attempt "
+     "that is in several of them counts once",
+     true},
+    kJobs,
+    {"--out", "FILE.json", "the new file"},
+    kJson};
 constexpr Option kCheckOptions[] = {
     kLibrary,
     kCase,

@@ -48,14 +48,19 @@ std::optional<population::Group> group_from(const std::string& text) {
   return population::shifted_group(shift);
 }
 
+Numbered numbered(const Shard& shard, std::size_t people) noexcept {
+  const std::size_t before = people * (shard.number - 1) / shard.of;
+  return {before + 1, people * shard.number / shard.of - before};
+}
+
 base::Result<std::vector<population::SimulatedPoint>> simulated_points(const session::Simulation& simulation,
                                                                        const std::vector<population::Group>& groups,
-                                                                       std::uint64_t seed, std::size_t people,
+                                                                       std::uint64_t seed, Numbered people,
                                                                        std::size_t jobs) {
   const std::uint64_t case_key = population::case_key_of(simulation.task().row.title);
   std::vector<session::SimulatedTrial> trials;
   std::vector<population::SimulatedPoint> points;
-  for (std::size_t number = 1; number <= people; ++number) {
+  for (std::size_t number = people.first; number < people.first + people.count; ++number) {
     const auto person = population::drawn_person(groups[(number - 1) % groups.size()], seed, number);
     const population::Occasion occasion{case_key, 0, 0.0};
     session::SimulatedTrial& trial = trials.emplace_back();

@@ -12,6 +12,10 @@
 
 namespace seldinger::assessment {
 
+// Who acts otherwise for the same skills and seed has another version: what was simulated of different ones is not
+// mixed. It is raised with the hashes in tests/assessment/operators.
+constexpr int kOperatorVersion = 1;
+
 // Each is a row of skill_fields(), which tells unit, range, values and what it means.
 struct Skills {
   // With needle and picture.

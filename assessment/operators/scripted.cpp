@@ -367,9 +367,10 @@ void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
                            : 0.0;
   if (phase_ == Phase::scan && tests_side_)
     probe.position_lps_mm += probe.side * (kSideMm * base::exact_sin(2.0 * std::numbers::pi * scanned_share()));
-  probe.position_lps_mm += normal * (sweep + follow_mm_ + drift_.at(t_s_) * profile_.probe_drift_mm * alignment_);
+  const auto [drift, tilt] = wanders_at<2>({&drift_, &tilt_}, t_s_);
+  probe.position_lps_mm += normal * (sweep + follow_mm_ + drift * profile_.probe_drift_mm * alignment_);
   // A drifting hand also tilts: about 1° for each millimetre.
-  const double tilt_rad = tilt_.at(t_s_) * profile_.probe_drift_mm * alignment_ * std::numbers::pi / 180.0;
+  const double tilt_rad = tilt * profile_.probe_drift_mm * alignment_ * std::numbers::pi / 180.0;
   probe.axis = glm::normalize(probe.axis + normal * tilt_rad);
 }
 

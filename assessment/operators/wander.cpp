@@ -2,16 +2,9 @@
 
 #include <numbers>
 
-#include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
 
 namespace seldinger::assessment {
-
-double Wander::at(double t_s) const noexcept {
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) sum += base::exact_sin(phase_rad[i] + rate_rad_s[i] * t_s);
-  return sum / 1.224744871391589;  // √(3/2): unit variance
-}
 
 Wander make_wander(base::Rng& rng, double low_hz, double high_hz) {
   Wander wander;
@@ -30,8 +23,9 @@ UnsteadyHand::UnsteadyHand(base::Rng& rng) {
 glm::dvec3 UnsteadyHand::offset_mm(double t_s, const glm::dvec3& direction, double tremor_mm, double sway_mm,
                                    bool in_tissue) const noexcept {
   const auto [u, v] = base::perpendiculars(direction);
-  const glm::dvec3 tremor(tremor_[0].at(t_s), tremor_[1].at(t_s), tremor_[2].at(t_s));
-  const glm::dvec3 sway = u * sway_[0].at(t_s) + v * sway_[1].at(t_s);
+  const auto at = wanders_at<5>({&tremor_[0], &tremor_[1], &tremor_[2], &sway_[0], &sway_[1]}, t_s);
+  const glm::dvec3 tremor(at[0], at[1], at[2]);
+  const glm::dvec3 sway = u * at[3] + v * at[4];
   return (in_tissue ? kHeldByTissue : 1.0) * (tremor_mm * tremor + sway_mm * sway);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
 
@@ -36,6 +37,20 @@ double height(const std::vector<double>& coefficients, const Place& place) noexc
   return std::inner_product(terms.begin(), terms.end(), coefficients.begin(), 0.0);
 }
 
+// Gauss and Jordan: of the unknowns of the first N columns, for each further column. Positive definite, so no pivot
+// is sought.
+template <std::size_t N, std::size_t Columns>
+void solve(std::array<std::array<double, Columns>, N>& rows) {
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t k = 0; k < N; ++k) {
+      if (k == i) continue;
+      const double factor = rows[k][i] / rows[i][i];
+      for (std::size_t j = i; j < Columns; ++j) rows[k][j] -= factor * rows[i][j];
+    }
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = N; j < Columns; ++j) rows[i][j] /= rows[i][i];
+}
+
 // Least squares by the normal equations, with a ridge so small that it only settles what the points leave open.
 std::vector<double> solved(const std::vector<SimulatedPoint>& points, std::span<const std::size_t> with_value,
                            const std::vector<double>& scores) {
@@ -48,24 +63,19 @@ std::vector<double> solved(const std::vector<SimulatedPoint>& points, std::span<
     }
   }
   for (std::size_t i = 0; i < kTerms; ++i) rows[i][i] += 1e-6 * static_cast<double>(with_value.size());
-  for (std::size_t i = 0; i < kTerms; ++i)  // Gauss and Jordan; positive definite, so no pivot is sought
-    for (std::size_t k = 0; k < kTerms; ++k) {
-      if (k == i) continue;
-      const double factor = rows[k][i] / rows[i][i];
-      for (std::size_t j = i; j <= kTerms; ++j) rows[k][j] -= factor * rows[i][j];
-    }
+  solve(rows);
   std::vector<double> solution(kTerms);
-  for (std::size_t i = 0; i < kTerms; ++i) solution[i] = rows[i][kTerms] / rows[i][i];
+  for (std::size_t i = 0; i < kTerms; ++i) solution[i] = rows[i][kTerms];
   return solution;
 }
 
 // The value that lies a share up the sorted ones. Between two that stand alone others are possible; next to a value
 // that many have, as 0 is, they are not.
-double at_share(const std::vector<double>& sorted, double share, bool between) {
+double at_share(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size());
   const auto last = static_cast<double>(sorted.size() - 1);
   const auto low = static_cast<std::size_t>(std::clamp(std::floor(place), 0.0, last));
-  if (!between || low + 2 >= sorted.size() || low == 0) return sorted[low];
+  if (low + 2 >= sorted.size() || low == 0) return sorted[low];
   const double a = sorted[low], b = sorted[low + 1];
   if (sorted[low - 1] == a || sorted[low + 2] == b) return a;
   return a + (b - a) * std::clamp(place - static_cast<double>(low), 0.0, 1.0);
@@ -94,6 +104,7 @@ SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std
 
 std::string difference(const SurrogateMark& one, const SurrogateMark& other) {
   if (one.people_version != other.people_version) return "another model of people";
+  if (one.operator_version != other.operator_version) return "other operators";
   if (one.step_version != other.step_version) return "another version of the simulation's step";
   if (one.case_id != other.case_id || one.case_title != other.case_title || one.case_mark != other.case_mark)
     return "another case, or the case has changed since";
@@ -108,6 +119,19 @@ bool is_whole(const std::string& metric) {
   return info == nullptr || info->estimand.scale == Scale::count || info->estimand.scale == Scale::yes_no;
 }
 
+bool add_once(const std::vector<SimulatedPoint>& more, std::vector<SimulatedPoint>& points) {
+  std::map<Place, std::size_t> known;  // of one place is the same person on the same occasion
+  for (std::size_t p = 0; p < points.size(); ++p) known.emplace(points[p].place, p);
+  for (const SimulatedPoint& one : more) {
+    const auto [at, is_new] = known.emplace(one.place, points.size());
+    if (is_new)
+      points.push_back(one);
+    else if (points[at->second].values != one.values)
+      return false;
+  }
+  return true;
+}
+
 base::Result<Surrogate> Surrogate::fit(SurrogateMark mark, std::vector<SimulatedPoint> points) {
   if (points.size() < kFewest || points.size() > kMost)
     return base::Error{"bad_surrogate", "a surrogate is fitted to " + std::to_string(kFewest) + " to " +
@@ -116,16 +140,46 @@ base::Result<Surrogate> Surrogate::fit(SurrogateMark mark, std::vector<Simulated
   Surrogate made;
   made.mark_ = std::move(mark);
   made.points_ = std::move(points);
+  made.fit_places();
   made.fit_surfaces();
   return made;
+}
+
+// Of where attempts are: the mean, and the inverse of the covariance.
+void Surrogate::fit_places() {
+  const auto n = static_cast<double>(points_.size());
+  for (const SimulatedPoint& one : points_)
+    for (std::size_t a = 0; a < kAxes; ++a) mean_[a] += one.place[a] / n;
+  std::array<std::array<double, 2 * kAxes>, kAxes> rows{};
+  for (const SimulatedPoint& one : points_)
+    for (std::size_t a = 0; a < kAxes; ++a)
+      for (std::size_t b = 0; b < kAxes; ++b)
+        rows[a][b] += (one.place[a] - mean_[a]) * (one.place[b] - mean_[b]) / n;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    rows[a][a] += 1e-6;
+    rows[a][kAxes + a] = 1.0;
+  }
+  solve(rows);
+  for (std::size_t a = 0; a < kAxes; ++a)
+    for (std::size_t b = 0; b < kAxes; ++b) inverse_covariance_[a][b] = rows[a][kAxes + b];
+}
+
+// About this attempts are looked for, so that the mean of those that are found is the place that was asked for: of
+// normal ones with a covariance Σ about μ a kernel of h² about c finds such about x where c = x + h² Σ⁻¹ (x − μ).
+Place Surrogate::centre_for(const Place& place) const noexcept {
+  Place centre = place;
+  for (std::size_t a = 0; a < kAxes; ++a)
+    for (std::size_t b = 0; b < kAxes; ++b)
+      centre[a] += kNearSd * kNearSd * inverse_covariance_[a][b] * (place[b] - mean_[b]);
+  return centre;
 }
 
 void Surrogate::fit_surfaces() {
   for (std::size_t m = 0; m < mark_.metrics.size(); ++m) {
     Surface& surface = surfaces_.emplace_back();
+    if (is_whole(mark_.metrics[m].id)) continue;
     surface.scores.resize(points_.size());
     surface.coefficients.resize(kTerms);
-    surface.between = !is_whole(mark_.metrics[m].id);
     std::vector<std::size_t> order;
     for (std::size_t p = 0; p < points_.size(); ++p)
       if (points_[p].values[m]) order.push_back(p);
@@ -152,7 +206,7 @@ std::size_t Surrogate::index_of(const std::string& metric) const {
 }
 
 // One of the attempts, the likelier the nearer: by trying until one is taken.
-std::size_t Surrogate::near(const Place& place, std::uint64_t stream) const {
+std::size_t Surrogate::near(const Place& centre, std::uint64_t stream) const {
   std::size_t nearest = 0;
   double least = 1e300;
   for (std::uint64_t i = 0; i < kMostTries; ++i) {
@@ -160,14 +214,16 @@ std::size_t Surrogate::near(const Place& place, std::uint64_t stream) const {
         static_cast<std::size_t>(base::uniform_at(stream, 2 * i) * static_cast<double>(points_.size()));
     double squared = 0.0;
     for (std::size_t a = 0; a < kAxes; ++a) {
-      const double off = points_[tried].place[a] - place[a];
+      const double off = points_[tried].place[a] - centre[a];
       squared += off * off;
     }
     if (squared < least) {
       least = squared;
       nearest = tried;
     }
-    if (base::uniform_at(stream, 2 * i + 1) < base::exact_exp(-0.5 * squared / (kNearSd * kNearSd))) return tried;
+    const double away = 0.5 * squared / (kNearSd * kNearSd), drawn = base::uniform_at(stream, 2 * i + 1);
+    // exp(−x) ≤ 1/(1 + x) spares most of the exponentials.
+    if (drawn * (1.0 + away) <= 1.0 && drawn < base::exact_exp(-away)) return tried;
   }
   return nearest;
 }
@@ -177,19 +233,20 @@ Values Surrogate::moved(std::size_t from, const Place& to) const {
   values.reserve(surfaces_.size());
   for (std::size_t m = 0; m < surfaces_.size(); ++m) {
     const Surface& surface = surfaces_[m];
-    if (!points_[from].values[m]) {
-      values.emplace_back();
+    // Counts, yes and no are what the attempt is of, and stay: moved one by one they would no longer belong to it.
+    if (!points_[from].values[m] || surface.sorted.empty()) {
+      values.push_back(points_[from].values[m]);
       continue;
     }
     const double score =
         surface.scores[from] + height(surface.coefficients, to) - height(surface.coefficients, points_[from].place);
-    values.emplace_back(at_share(surface.sorted, statistics::normal_cdf(score), surface.between));
+    values.emplace_back(at_share(surface.sorted, statistics::normal_cdf(score)));
   }
   return values;
 }
 
 Values Surrogate::draw(const Place& place, std::uint64_t stream) const {
-  return moved(near(place, stream), place);
+  return moved(near(centre_for(place), stream), place);
 }
 
 Values Surrogate::draw(const Person& person, const Occasion& occasion) const {

@@ -1,7 +1,8 @@
 // What a simulated person's attempt at a case would measure, drawn in microseconds instead of simulated in seconds:
-// of attempts that were simulated whole, a response surface over abilities and strategy, and around it what those
-// attempts left over, whole, so that metrics hang together, and are null together, as they did. It is of one case,
-// one model of people and one version of each metric, and refused for any other.
+// one of the attempts that were simulated whole, of about those abilities and strategy, so that metrics hang
+// together, and are null together, as they did; what is measured, not counted, is moved by a response surface over
+// the rest of the way. It is of one case, one model of people and one version of each metric, and refused for any
+// other.
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "assessment/metrics/metric.h"
+#include "assessment/operators/profile.h"
 #include "assessment/population/person.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -24,7 +26,7 @@ Place place_of(const Person& person, const Occasion& occasion);
 
 // Of what a surrogate is. Two of different marks are different things.
 struct SurrogateMark {
-  int people_version = kPeopleVersion;
+  int people_version = kPeopleVersion, operator_version = kOperatorVersion;
   std::uint32_t step_version = 0;
   std::string case_id, case_title, case_mark;  // the mark is of the case's content
   struct Metric {
@@ -51,6 +53,9 @@ struct SimulatedPoint {
   Values values;
 };
 
+// Adds those that are not there yet; false: one is, and measured otherwise, so that the two are of different laws.
+bool add_once(const std::vector<SimulatedPoint>& more, std::vector<SimulatedPoint>& points);
+
 class Surrogate {
  public:
   // `too_few`: less than kFewest attempts.
@@ -72,18 +77,21 @@ class Surrogate {
 
  private:
   Surrogate() = default;
+  void fit_places();
   void fit_surfaces();
-  std::size_t near(const Place& place, std::uint64_t stream) const;
+  Place centre_for(const Place& place) const noexcept;
+  std::size_t near(const Place& centre, std::uint64_t stream) const;
   Values moved(std::size_t from, const Place& to) const;
 
-  struct Surface {
+  struct Surface {  // empty for counts, yes and no
     std::vector<double> coefficients;
     std::vector<double> scores;  // of each point: the normal score of its value; 0: it has none
     std::vector<double> sorted;  // the values
-    bool between = false;        // values between those that were seen are possible
   };
   SurrogateMark mark_;
   std::vector<SimulatedPoint> points_;
+  Place mean_{};
+  std::array<Place, kAxes> inverse_covariance_{};
   std::vector<Surface> surfaces_;
 };
 

@@ -49,6 +49,7 @@ std::string Surrogate::to_json() const {
   const Ordered json = {{"surrogate", 1},
                         {"synthetic", true},
                         {"people_version", mark_.people_version},
+                        {"operator_version", mark_.operator_version},
                         {"step_version", mark_.step_version},
                         {"case_id", mark_.case_id},
                         {"case", mark_.case_title},
@@ -61,7 +62,7 @@ std::string Surrogate::to_json() const {
 base::Result<Surrogate> Surrogate::from_json(const std::string& text) {
   const Ordered json = Ordered::parse(text, nullptr, false);
   if (!json.is_object() || json.value("surrogate", Ordered()) != 1) return bad_surrogate();
-  for (const char* key : {"people_version", "step_version"})
+  for (const char* key : {"people_version", "operator_version", "step_version"})
     if (!json.contains(key) || !json[key].is_number_integer()) return bad_surrogate();
   for (const char* key : {"case_id", "case", "case_mark"})
     if (!json.contains(key) || !json[key].is_string()) return bad_surrogate();
@@ -69,6 +70,7 @@ base::Result<Surrogate> Surrogate::from_json(const std::string& text) {
     if (!json.contains(key) || !json[key].is_array()) return bad_surrogate();
   SurrogateMark mark;
   mark.people_version = json["people_version"].get<int>();
+  mark.operator_version = json["operator_version"].get<int>();
   mark.step_version = json["step_version"].get<std::uint32_t>();
   mark.case_id = json["case_id"].get<std::string>();
   mark.case_title = json["case"].get<std::string>();

@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <numbers>
 
+#include "sim/base/exact_reduction.h"
+
 namespace seldinger::base {
 namespace {
 
-// π/2 in three parts of decreasing size (Cody and Waite 1980): n·kHalfPiHigh is exact for |n| < 2^20.
-constexpr double kHalfPiHigh = 0x1.921fb54400000p+0;
-constexpr double kHalfPiMiddle = 0x1.0b4611a600000p-34;
-constexpr double kHalfPiLow = 0x1.3198a2e037073p-69;
 constexpr double kPi = std::numbers::pi;
 
 // Taylor series on |r| ≤ π/4: the first term left out is below 1e-17.
@@ -27,17 +25,6 @@ double cos_near_zero(double r) noexcept {
   double sum = 0.0;
   for (int k = 18; k >= 2; k -= 2) sum = (1.0 - sum) * z / (k * (k - 1.0));
   return 1.0 - sum;
-}
-
-struct Reduced {
-  double r = 0.0;
-  int quadrant = 0;
-};
-
-Reduced reduce(double x_rad) noexcept {
-  const double n = std::floor(x_rad / (kPi / 2) + 0.5);
-  const double r = ((x_rad - n * kHalfPiHigh) - n * kHalfPiMiddle) - n * kHalfPiLow;
-  return {r, static_cast<int>(static_cast<std::int64_t>(n) & 3)};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -35,6 +36,7 @@ double decibels(double of_power) {
   return 10.0 * std::log10(std::max(of_power, 1e-40));
 }
 
+constexpr double kNoBeam = std::numeric_limits<double>::quiet_NaN();
 // Where a point lies in the picture.
 struct Place {
   double beam, depth_mm, off_plane_mm;
@@ -67,8 +69,11 @@ class Sight {
   }
   Place place(const glm::dvec3& p_lps_mm) const {
     const glm::dvec3 d = p_lps_mm - fan_.origin_lps_mm;
-    const BeamAndDepth at = beam_and_depth(view_, glm::dot(d, fan_.lateral), glm::dot(d, fan_.axial));
-    return {at.beam, at.depth_mm, glm::dot(d, fan_.elevation)};
+    const double x_mm = glm::dot(d, fan_.lateral), z_mm = glm::dot(d, fan_.axial);
+    const double depth_mm = fan_.depth_mm(x_mm, z_mm), off_plane_mm = glm::dot(d, fan_.elevation);
+    // Nobody asks for the beam of what lies too near or too deep, as most of a needle outside the skin does.
+    const bool in_depth = depth_mm >= 0.0 && depth_mm <= view_.depth_mm;
+    return {in_depth ? fan_.beam(x_mm, z_mm) : kNoBeam, depth_mm, off_plane_mm};
   }
   // The same borders as the screen's (ScanConverter); not with NaN.
   bool in_field(const Place& at) const {

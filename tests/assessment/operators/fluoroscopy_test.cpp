@@ -142,6 +142,8 @@ TEST(FluoroscopyOperator, SameSeedSameAttemptOtherSeedAnother) {
   const cases::Case scene = patient(cases::PatientPosition::supine);
   EXPECT_EQ(attempt(scene, "novice", 5).hash, attempt(scene, "novice", 5).hash);
   EXPECT_NE(attempt(scene, "novice", 5).hash, attempt(scene, "novice", 6).hash);
+  // Where this changes, kOperatorVersion goes up, or kStepVersion.
+  EXPECT_EQ(attempt(scene, "novice", 5).hash, 0ULL);
 }
 
 TEST(FluoroscopyOperator, ItsParametersAreData) {

@@ -195,7 +195,7 @@ TEST(ScriptedOperator, ACoreNeedleIsTakenOutWhole) {
 }
 
 // What was drawn before operators knew of breath, or showed anything by deed, stays: attempts at still cases are
-// those of before.
+// those of before. Where these hashes change, kOperatorVersion goes up.
 TEST(ScriptedOperator, AtAStillPatientActsAsBeforeItKnewOfBreath) {
   const auto shows = [](const Tick& tick) {
     return tick.inserted_mm > 2.0 && (tick.inserted_mm < 20.0 || tick.inserted_mm > 26.0) &&

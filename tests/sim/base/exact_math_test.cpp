@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
+#include "sim/base/exact_sines.h"
 #include "sim/base/rng.h"
 
 namespace seldinger::base {
@@ -63,6 +66,20 @@ TEST(ExactMath, sine_and_cosine_are_within_1e_13_up_to_a_thousand_radians) {
 TEST(ExactMath, sine_and_cosine_hold_to_a_million_radians) {
   EXPECT_TRUE(worst(exact_sin, libm_sin, -1e6, 1e6, kAbsolute) < 1e-12);
   EXPECT_TRUE(worst(exact_cos, libm_cos, -1e6, 1e6, kAbsolute) < 1e-12);
+}
+
+// However many there are, and whichever quarter turns lie beside each other.
+TEST(ExactMath, many_sines_have_the_bits_of_each) {
+  for (const std::size_t count : {1U, 7U, 8U, 9U, 15U, 64U})
+    for (int draw = 0; draw < 2000; ++draw) {
+      std::vector<double> x, sines(count);
+      for (std::size_t i = 0; i < count; ++i)
+        x.push_back(between(9, draw * 64 + static_cast<int>(i), -1e3, 1e3) * (i % 3 == 0 ? 1e3 : 1.0));
+      if (draw == 0) x[0] = 0.0;
+      exact_sines(x, sines);
+      for (std::size_t i = 0; i < count; ++i)
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(sines[i]), std::bit_cast<std::uint64_t>(exact_sin(x[i]))) << x[i];
+    }
 }
 
 TEST(ExactMath, sine_and_cosine_hold_next_to_multiples_of_half_pi) {

@@ -92,11 +92,18 @@ glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) no
   return fan.start_lps_mm(beam) + depth_mm * fan.direction(beam);
 }
 
+double Fan::beam(double x_mm, double z_mm) const noexcept {
+  if (!curved) return (x_mm - first_beam) / beam_step;
+  return (2.0 * base::exact_atan(shaders::us_half_tangent(x_mm, z_mm, radius_mm)) - first_beam) / beam_step;
+}
+
+double Fan::depth_mm(double x_mm, double z_mm) const noexcept {
+  return curved ? shaders::us_from_face_mm(x_mm, z_mm, radius_mm) : z_mm;
+}
+
 BeamAndDepth beam_and_depth(const UltrasoundView& view, double x_mm, double z_mm) noexcept {
   const Fan fan = fan_of(view);
-  if (!fan.curved) return {(x_mm - fan.first_beam) / fan.beam_step, z_mm};
-  const double half = base::exact_atan(shaders::us_half_tangent(x_mm, z_mm, fan.radius_mm));
-  return {(2.0 * half - fan.first_beam) / fan.beam_step, shaders::us_from_face_mm(x_mm, z_mm, fan.radius_mm)};
+  return {fan.beam(x_mm, z_mm), fan.depth_mm(x_mm, z_mm)};
 }
 
 }  // namespace seldinger::imaging

@@ -26,6 +26,9 @@ struct Fan {
   };
   Way way(double beam) const noexcept;
   double beam_spacing_mm(double depth_mm) const noexcept;
+  // Of a point in the plane, so far along the face and from it.
+  double beam(double x_mm, double z_mm) const noexcept;
+  double depth_mm(double x_mm, double z_mm) const noexcept;
 };
 Fan fan_of(const UltrasoundView& view) noexcept;
 
