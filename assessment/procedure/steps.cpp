@@ -47,7 +47,7 @@ constexpr StepInfo kSteps[] = {
     {"hold_at_entry", "Hold the needle at the entry", kSkin, needle_at_skin, none, none, kAlways, kTask(4)},
     {"aim_along_beam", "Aim along the beam: bull's-eye view", kXray | kPictures | kBeam, looked_along_needle,
      at_target, hand_in_beam, kAlways, kBullsEye},
-    {"insert", "Insert the needle; a patient’s skin must be numb", kSkin, punctured, none, skin_pain, kAlways,
+    {"insert", "Insert the needle; the skin of a patient must be numb", kSkin, punctured, none, skin_pain, kAlways,
      kTask(6)},
     {"enter_at_angle", "Enter the skin at the planned angle", kSkin | kPlan, angle_kept, none, none, kAlways,
      kTask(6)},

@@ -150,7 +150,7 @@ TEST(LibraryQuestions, AStoredAttemptIsListedShownAndItsPictureServed) {
   for (const char* piece : {"Kidney &lt;b&gt;A&lt;/b&gt;", "Simulated expert", "<dd>Yes</dd>",
                             "— <span class=\"why\">the needle was never fired or declared to be there</span>",
                             "From 4.9 mm at the start to 0.0 mm at the end",
-                            "Insert the needle; a patient’s skin must be numb</summary>",
+                            "Insert the needle; the skin of a patient must be numb</summary>",
                             "<span class=\"no\">✗ wrong</span>", "LPS (4.0, 4.0, 4.0) mm, diameter 4.0 mm"}) {
     EXPECT_THAT(page, HasSubstr(piece));
   }
