@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "casedb/attempts/attempts.h"
+#include "casedb/people/people.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::casedb {
