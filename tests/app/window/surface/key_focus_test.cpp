@@ -14,6 +14,7 @@ class KeyFocusTest : public testing::Test {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
+    io.KeyMap[ImGuiKey_Space] = 32;  // Dear ImGui asks for one where keys walk
     io.DisplaySize = {800.0F, 600.0F};
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
