@@ -45,7 +45,7 @@ constexpr std::pair<Law, const char*> kLaws[] = {
     {kMirrored, "left for right"},
     {kInAnyBreath, "breath on or off, the hands at rest relative to tissue"},
     {kIdleBefore, "seconds in which nothing is done, before"},
-    {kIdleAfter, "the same after the last deed, where nothing was fired"},
+    {kIdleAfter, "the same after the last action, where nothing was fired"},
     {kOneDarkFrame, "one picture that shows nothing"},
     {kLostSamples, "one pose in a hundred missing"},
     {kNothingIsNothing, "(who does nothing has no value)"}};

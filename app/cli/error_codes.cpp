@@ -288,8 +288,9 @@ constexpr ErrorCode kAttemptCodes[] = {
     {"bad_skin", kRefuses, "A skin surface does not tell inside from outside.", "Import the case again."},
     {"bad_target", kRefuses, "The target is not a sphere of finite size.", ""},
     {"bad_plan", kRefuses, "The planned entry is not a point with a direction.", ""},
-    {"bad_poses", kRefuses, "Poses are missing, not finite, or not in the order of time.",
-     "The message names the row."},
+    {"bad_poses", kRefuses,
+     "Poses are missing, not finite, not in the order of time, more than 1 km away or later than 10 000 000 s.",
+     "The message names the row; times count from the beginning of the attempt."},
     {"bad_forces", kRefuses, "Forces are not finite or not in the order of time.", "The message names the row."},
     {"bad_frames", kRefuses, "A frame's time is not finite.", ""},
     {"bad_events", kRefuses, "An event's time is not finite.", ""}};

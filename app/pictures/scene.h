@@ -79,7 +79,7 @@ struct Scene {
 base::Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& folder,
                                     std::vector<std::string>& unused);
 
-// Reads the file; `notes` gets a line for each object with fields that are not used, to be shown when all went
+// Reads the file; `notes` gets a line for each field that is not used, to be shown when all went
 // well. Refused as scene_from_json, `not_found`, `too_large`.
 base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes);
 

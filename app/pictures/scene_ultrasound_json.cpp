@@ -113,7 +113,7 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, bas
                  : output == "envelope_db" ? UltrasoundOutput::envelope_db
                                            : UltrasoundOutput::display;
   if (view.compound_deg > 0.0 && scene.output != UltrasoundOutput::display)
-    reader.bad("compound_deg", "is of a display");
+    reader.bad("compound_deg", "needs output display");
   if (reader.has("colour") && reader["colour"].is_object()) {
     SceneReader colour(reader["colour"], "view.colour", error);
     scene.console.colour_mm_s = 10.0 * colour.number("scale_cm_s", 2.0, 500.0);
@@ -121,7 +121,7 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, bas
     scene.console.box_across = colour.number("box_across", 0.0, 1.0, 0.0);
     scene.console.box_down = colour.number("box_down", 0.0, 1.0, 0.0);
     colour.unused(unused);
-    if (scene.output != UltrasoundOutput::display) reader.bad("colour", "is of a display");
+    if (scene.output != UltrasoundOutput::display) reader.bad("colour", "needs output display");
   } else if (reader.has("colour") && !reader["colour"].is_null()) {
     reader.bad("colour", "is not an object");
   }

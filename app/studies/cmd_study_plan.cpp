@@ -218,7 +218,9 @@ constexpr Option kEnrolOptions[] = {kLibrary,
 Command study_template_command() {
   return {.name = "study template",
           .options = kTemplateOptions,
-          .summary = "Writes a plan to begin with: valid as it stands, its words to be replaced (docs/studies.md).",
+          .summary =
+              "Writes a plan to begin with: a valid draft, whose words that begin with REPLACE are replaced before "
+              "it is frozen (docs/studies.md).",
           .run = &run_study_template};
 }
 

@@ -97,7 +97,8 @@ Candidate of_null(const CriterionResult& one, std::string_view topic, const Metr
   if (one.reason == kOtherVersion)
     made.sentence.text = "“" + label + "” was measured by another version than the rule's: not comparable.";
   else if (one.reason == "no_endpoint")
-    made.sentence.text = "The needle was never fired or declared to be there, so the endpoint cannot be judged.";
+    made.sentence.text =
+        "The needle was neither fired nor declared to be on target, so the endpoint cannot be judged.";
   else
     made.sentence.text = "“" + label + "” has no value (" + reason_words(one.reason) + "), so it is not met.";
   if (one.criterion.critical) made.by_how_much = 1.0;

@@ -33,7 +33,7 @@ constexpr ReasonWords kReasons[] = {
     {"no_skin", "the case has no skin surface"},
     {"no_right_decision", "the case does not say whether to go ahead or to defer"},
     // What the recording does not hold (needs.cpp).
-    {"no_endpoint", "the needle was never fired or declared to be there"},
+    {"no_endpoint", "the needle was neither fired nor declared to be on target"},
     {"no_picture", "no picture was recorded"},
     {"beam_not_recorded", "the recording does not say what the beam did"},
     {"near_plane_not_recorded", "the recording does not say what lay near the picture’s plane"},

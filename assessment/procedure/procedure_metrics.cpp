@@ -82,7 +82,7 @@ constexpr MetricInfo kProcedureMetrics[] = {
      "docs/clinical.md, case 8; SIR 2019 thresholds", &decision_right, kProportion, kOfEvents | kNothingIsNothing,
      "1: to proceed and to defer could both be said."},
     {"steps_done", 4, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
-     "Share done of the graded steps (steps.md) that were asked for; a step that a deed can show, by the deed "
+     "Share done of the graded steps (steps.md) that were asked for; a step that an action can show, by the action "
      "only. "
      "Null: no_step_asked_for.",
      kStepSources, &steps_done, kMedianShare, kOfSteps,
@@ -91,7 +91,7 @@ constexpr MetricInfo kProcedureMetrics[] = {
      "the angle at the skin and the way back from the check in the held breath were no steps; 3: as steps_shown 1 "
      "had it"},
     {"steps_shown", 2, "share", "Steps shown", Group::procedure, Direction::higher_is_better, kEvents,
-     "As steps_done, of the steps that a deed can show: what was said neither counts nor is asked for. Null: "
+     "As steps_done, of the steps that an action can show: what was said neither counts nor is asked for. Null: "
      "no_step_asked_for.",
      kStepSources, &steps_shown, kMedianShare, kOfSteps,
      "1: breath that slid past a resting hand was a jiggle, and the rest as steps_violated 3 had it"},

@@ -190,7 +190,7 @@ const std::vector<Column<StepFact>>& step_columns() {
       {{"reason", "text", "", "it was asked", "why it was not"},
        [](CsvLine& line, const Fact& f) { line.text(f.step->reason); }},
       {{"how", "text", "", "it was neither, or stored before this was kept",
-        "of done: shown (by a deed) or said; of skipped: said, where only a deed counts"},
+        "of done: shown (by an action) or said; of skipped: said, where only an action counts"},
        [](CsvLine& line, const Fact& f) {
          f.step->how ? line.text(assessment::name_of(*f.step->how)) : line.nothing();
        }},

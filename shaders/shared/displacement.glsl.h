@@ -28,9 +28,9 @@ SHARED real cavity_node_mm(OF_DISPLACEMENT int height, int way) {
 }
 SHARED real cavity_radius_mm(OF_DISPLACEMENT real turn, real height) {
   real ways = turn * real(kCavityWays / 4);
-  int way = min(int(ways), kCavityWays - 1);
+  int way = clamp(int(ways), 0, kCavityWays - 1);
   int next = way + 1 < kCavityWays ? way + 1 : 0;
-  int low = min(int(height), kCavityHeights - 2);
+  int low = clamp(int(height), 0, kCavityHeights - 2);
   real on = ways - real(way);
   real up = height - real(low);
   real below_mm = (real(1.0) - on) * cavity_node_mm(THE_DISPLACEMENT low, way) +

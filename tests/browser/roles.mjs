@@ -4,7 +4,7 @@
 //
 //   node roles.mjs PROGRAM LIBRARY OUT      LIBRARY is that of `seldinger demo --drills`; its passwords are set anew
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { randomBytes } from "node:crypto";
 import { createInterface } from "node:readline";
 import axe from "axe-core";
@@ -32,6 +32,8 @@ function fill() {
   command(["study", "new", "Needles in phantoms"]);
   command(["study", "researcher", "Needles", "--user", "researcher"]);
   command(["study", "template", "--case", "Drill 1", "--out", `${out}/plan.json`]);
+  const plan = readFileSync(`${out}/plan.json`, "utf8").replaceAll("REPLACE: ", "");  // as if it were filled in
+  writeFileSync(`${out}/plan.json`, plan);
   command(["study", "plan", "Needles", `${out}/plan.json`]);
   command(["study", "freeze", "Needles"]);
 }

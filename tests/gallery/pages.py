@@ -93,7 +93,7 @@ def add_study(commands, scratch):
     commands.done("consent", "text", text_file, "--study", STUDY)
     commands.done("study", "template", "--case", "Drill 1", "--out", plan_file)
     with open(plan_file) as file:
-        plan = json.load(file)
+        plan = json.loads(file.read().replace("REPLACE: ", ""))  # as if it were filled in
     plan["people"] = "simulated"
     with open(plan_file, "w") as file:
         json.dump(plan, file)

@@ -95,7 +95,8 @@ TEST(GradeOnPage, EachCriterionSaysWhatWasAskedAndWhatCame) {
   EXPECT_THAT(table, HasSubstr(">3.2 mm<"));
   EXPECT_THAT(table, HasSubstr(">none<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Missed</span>"));
-  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">the needle was never fired or declared to be there</span>"));
+  EXPECT_THAT(table,
+              HasSubstr("— <span class=\"why\">the needle was neither fired nor declared to be on target</span>"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Not met</span>"));
   EXPECT_THAT(table, HasSubstr(">Yes<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"yes\">Met</span>"));

@@ -222,8 +222,9 @@ TEST(AttemptPage, ShowsNullMetricsAsADashWithTheReason) {
   for (casedb::MetricValue& metric : view.row.metrics) metric.value = std::nullopt, metric.reason = "no_endpoint";
   const std::string html = attempt_page(kMentor, view, nullptr);
   // Hit, distance and time lead; the tables hold six: a core's length means nothing for an access needle.
-  EXPECT_EQ(count_of(html, "— <span class=\"why\">the needle was never fired or declared to be there</span>"),
-            3U + 6U);
+  EXPECT_EQ(
+      count_of(html, "— <span class=\"why\">the needle was neither fired nor declared to be on target</span>"),
+      3U + 6U);
   for (const char* zero : {">0<", ">0.0", "No</dd>", "Yes</dd>", "the target was"})
     EXPECT_THAT(html, Not(HasSubstr(zero)));
 }

@@ -147,11 +147,12 @@ TEST(LibraryQuestions, AStoredAttemptIsListedShownAndItsPictureServed) {
   ASSERT_EQ(browser.log_in("mia", "correct+horse+battery").status, 303);
   EXPECT_THAT(browser.get("/attempts").body, HasSubstr("/attempts/" + attempt_id));
   const std::string page = browser.get("/attempts/" + attempt_id).body;
-  for (const char* piece : {"Kidney &lt;b&gt;A&lt;/b&gt;", "Simulated expert", "<dd>Yes</dd>",
-                            "— <span class=\"why\">the needle was never fired or declared to be there</span>",
-                            "From 4.9 mm at the start to 0.0 mm at the end",
-                            "Insert the needle; the skin of a patient must be numb</summary>",
-                            "<span class=\"no\">✗ wrong</span>", "LPS (4.0, 4.0, 4.0) mm, diameter 4.0 mm"}) {
+  for (const char* piece :
+       {"Kidney &lt;b&gt;A&lt;/b&gt;", "Simulated expert", "<dd>Yes</dd>",
+        "— <span class=\"why\">the needle was neither fired nor declared to be on target</span>",
+        "From 4.9 mm at the start to 0.0 mm at the end",
+        "Insert the needle; the skin of a patient must be numb</summary>", "<span class=\"no\">✗ wrong</span>",
+        "LPS (4.0, 4.0, 4.0) mm, diameter 4.0 mm"}) {
     EXPECT_THAT(page, HasSubstr(piece));
   }
   EXPECT_THAT(browser.get("/attempts/" + attempt_id + "/picture.png").body, StartsWith("\x89PNG"));

@@ -45,9 +45,9 @@ class DeskHands {
   // Before the first tick, where an attempt goes on: tools are where they were left, and arms are re-gripped there.
   void take_over(const cases::Inputs& left, const cases::State& state) noexcept;
 
-  // One tick: poses, trigger and frozen picture into `inputs`, whose fluoroscope is told already: with the hand away
-  // what mouse and keys hold stays where it is. The tool of a lost arm stays until mouse or keys
-  // move it; an arm that comes back goes on from where its tool is then.
+  // One tick: poses, trigger and frozen picture into `inputs`, whose fluoroscope is told already: with the hand
+  // away what mouse and keys hold stays where it is. The tool of a lost arm stays until mouse or keys move it; an
+  // arm that comes back goes on from where its tool is then.
   void advance(const devices::HandIntent& intent, const cases::State& state, const devices::AxialForces& forces,
                double elapsed_s, cases::Inputs& inputs) noexcept;
   // What the arms feel of the tick that was done goes to their motors.
@@ -83,7 +83,7 @@ class DeskHands {
   cases::Inputs last_;
   ArmsHeld arms_;
   std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS}, late_s_{}, limit_s_{};
-  bool away_ = false;                 // the hand was, in the last tick
+  bool away_ = false;              // the hand was, in the last tick
   std::array<bool, 2> arm_led_{};  // last, and so the mouse's own pose of it is old
   haptics::HandInputs held_;
   haptics::HandStates felt_;

@@ -97,7 +97,7 @@ void PersonAttempt::take_up_tools(bool left_handed) {
   devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
                                                   scene.approach == cases::Approach::in_plane, left_handed);
   settings.has_probe = settings.has_guide = session::guidance_kind(scene.picture.modality).probe_guides;
-  if (!settings.has_probe) start.probe = plan.probe;                                 // laid aside
+  if (!settings.has_probe) start.probe = plan.probe;  // laid aside
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<session::Monitor>(task_->scene, 0, wanted_.by);

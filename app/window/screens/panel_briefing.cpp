@@ -203,6 +203,31 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   planning_.draw_small(trainer, prepared);
 }
 
+// The button, or what is still missing.
+bool BriefingPanel::draw_enter(const Trainer& trainer, const Keys& keys, bool all, bool at_back) {
+  const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
+  const bool probe = trainer.probes().empty() || !trainer.chosen_probe().empty();
+  const bool may_begin = ready && all && probe;
+  ImGui::BeginDisabled(!may_begin);
+  const bool begin = noted_button("Enter the room (Enter)") || (may_begin && keys.pressed(kEnter));
+  if (may_begin) ImGui::SetItemDefaultFocus();
+  if (at_back && may_begin && !could_begin_) focus_here();  // Enter would lead out
+  could_begin_ = may_begin;
+  ImGui::EndDisabled();
+  if (ready && !may_begin) {
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    const char* words = !all ? "Complete the sign-in first." : "Choose a probe first.";
+    quiet(words);
+    note_item(words);
+  }
+  if (!ready) {
+    ImGui::SameLine();
+    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {scaled(220.0F), 0.0F}, "preparing the case …");
+  }
+  return begin;
+}
+
 bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   const casedb::CaseRow& row = trainer.chosen();
   if (case_id_ != row.case_id) {
@@ -263,25 +288,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::EndDisabled();
   }
   ImGui::SameLine();
-  const bool probe = trainer.probes().empty() || !trainer.chosen_probe().empty();
-  const bool may_begin = ready && all && probe;
-  ImGui::BeginDisabled(!may_begin);
-  const bool begin = noted_button("Enter the room (Enter)") || (may_begin && keys.pressed(kEnter));
-  if (may_begin) ImGui::SetItemDefaultFocus();
-  if (at_back && may_begin && !could_begin_) focus_here();  // Enter would lead out
-  could_begin_ = may_begin;
-  ImGui::EndDisabled();
-  if (ready && !may_begin) {
-    ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    const char* words = !all ? "Complete the sign-in first." : "Choose a probe first.";
-    quiet(words);
-    note_item(words);
-  }
-  if (!ready) {
-    ImGui::SameLine();
-    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {scaled(220.0F), 0.0F}, "preparing the case …");
-  }
+  const bool begin = draw_enter(trainer, keys, all, at_back);
   end_screen();
   return begin;
 }

@@ -56,7 +56,7 @@ struct LineGuide {
 struct HandsSettings {
   double needle_length_mm = 200.0;
   bool has_guide = true;
-  bool has_probe = true;  // else there is nothing to swap the needle for
+  bool has_probe = true;            // else there is nothing to swap the needle for
   std::optional<LineGuide> line{};  // takes the place of `probe_guide`
   ProbeGuide probe_guide{};
 };

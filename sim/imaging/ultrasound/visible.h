@@ -2,8 +2,8 @@
 // and no seed matters. The laws are the picture's own: its beam (probe.h), its needle (needle_echo.h), its tissue.
 //
 // Needle: the echo, weakened by how far it lies off the plane (and a tip by how far off its nearest beam), against
-// the speckle around it under the same loss, clutter and the receiver's noise. Target: see docs/decisions/0013. Left out:
-// the needle's own weak shadow and its tail, echoes of interfaces, the speed of sound.
+// the speckle around it under the same loss, clutter and the receiver's noise. Target: see docs/decisions/0013.
+// Left out: the needle's own weak shadow and its tail, echoes of interfaces, the speed of sound.
 #pragma once
 
 #include <span>

@@ -74,13 +74,14 @@ void add_lag(double field_side_mm, double t_s, const OverOpen& over_open, Fluoro
     if (first) picture.lagging[k].assign(quanta.size(), 0.0F);
     share[k] = static_cast<float>(kLag[k].share);
     left[k] = first ? 0.0F : static_cast<float>(base::exact_exp(frames * base::exact_log(kLag[k].left_each_frame)));
+    for (float& held : picture.lagging[k]) held *= left[k];  // also where leaves of lead are now
   }
   over_open([&](std::size_t i) {
     const float seen = quanta[i];
     quanta[i] = 0.0F;
     for (std::size_t k = 0; k < kLag.size(); ++k) {
       float& held = picture.lagging[k][i];
-      held = seen + left[k] * (held - seen);
+      held += (1.0F - left[k]) * seen;
       quanta[i] += share[k] * held;
     }
   });

@@ -175,7 +175,8 @@ TEST(DebriefTest, NullIsSaidAndNeverPraised) {
   EXPECT_EQ(said[0].kind, SentenceKind::not_measured);
   EXPECT_EQ(said[0].text,
             "“Far wall punctures” has no value (no lumen to be reached is marked in this case), so it is not met.");
-  EXPECT_EQ(said[1].text, "The needle was never fired or declared to be there, so the endpoint cannot be judged.");
+  EXPECT_EQ(said[1].text,
+            "The needle was neither fired nor declared to be on target, so the endpoint cannot be judged.");
   EXPECT_EQ(said[2].text, "Punctured the skin only once.");
   for (const Sentence& one : said) EXPECT_NE(one.metric_id == "hit" && one.kind == SentenceKind::well, true);
 }
@@ -190,7 +191,7 @@ TEST(DebriefTest, WhatNobodyDidIsNeitherPraisedNorHeldAgainstConsultants) {
       .with("nogo_contacts", 0.0)
       .with("time_needle", 0.0);
   const std::vector<std::string> said{
-      "The needle was never fired or declared to be there, so the endpoint cannot be judged."};
+      "The needle was neither fired nor declared to be on target, so the endpoint cannot be judged."};
   // Before: and "Kept out of every structure to stay out of."
   EXPECT_EQ(texts(parked.debriefed(rule, set)), said);
   Attempt deferred = parked;

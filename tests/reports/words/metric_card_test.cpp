@@ -46,7 +46,7 @@ TEST(MetricCardTest, SaysWhenAValueIsNullAndWhichDefinitionItIsOf) {
   const int now = assessment::find_metric("time_puncture_to_target")->version;
   Card card = metric_card("time_puncture_to_target", now);
   const std::string nulls = line_of(card, "No value if");
-  EXPECT_NE(nulls.find("the needle was never fired or declared to be there"), std::string::npos) << nulls;
+  EXPECT_NE(nulls.find("the needle was neither fired nor declared to be on target"), std::string::npos) << nulls;
   EXPECT_NE(nulls.find("the skin was never punctured"), std::string::npos) << nulls;
   EXPECT_EQ(line_of(card, "Version").find("this value"), std::string::npos);
   card = metric_card("time_puncture_to_target", now + 1);

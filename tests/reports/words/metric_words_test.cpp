@@ -18,7 +18,7 @@ std::string shown(double value, const std::string& unit, const std::string& id =
 TEST(Values, NullIsADashWithItsReasonAndNeverZero) {
   const casedb::MetricValue metric{"hit", 1, std::nullopt, "bool", "no_endpoint"};
   EXPECT_EQ(value_text(metric), "—");
-  EXPECT_EQ(reason_text(metric), "the needle was never fired or declared to be there");
+  EXPECT_EQ(reason_text(metric), "the needle was neither fired nor declared to be on target");
   EXPECT_EQ(reason_text({"x", 1, std::nullopt, "mm", ""}), "no reason was stored");
 }
 

@@ -5,10 +5,10 @@
 // Carlo for 100 to 300 mm, fields of 100 to 300 mm at the panel and 60 to 100 kV
 // (tests/sim/imaging/xray/beam/scatter_test.cpp), from which its four numbers are:
 //   0.89 · (thickness/200 mm)^1.65 · (field/200 mm)^1.5 · (gap/315 mm)^−1.4
-// That is with a gap of 315 mm; through 100 and 200 mm of water it is also within 20 % from 185 mm on. A panel can come
-// as near as 115 mm (a source-image distance of 900 mm). There the law still grows as gap^−1.4, and the Monte Carlo
-// less: at 150 mm the law is 0.88 to 1.37 of it, at 115 mm 0.78 to 1.86, too much in wide fields (60 to 100 kV).
-// It is taken as the same all over the field, which scatter nearly is.
+// That is with a gap of 315 mm; through 100 and 200 mm of water it is also within 20 % from 185 mm on. A panel can
+// come as near as 115 mm (a source-image distance of 900 mm). There the law still grows as gap^−1.4, and the Monte
+// Carlo less: at 150 mm the law is 0.88 to 1.37 of it, at 115 mm 0.78 to 1.86, too much in wide fields (60 to 100
+// kV). It is taken as the same all over the field, which scatter nearly is.
 #pragma once
 
 namespace seldinger::imaging {
