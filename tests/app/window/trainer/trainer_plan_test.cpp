@@ -16,9 +16,7 @@ TEST_F(TrainerTest, AWayThatIsPlannedIsKeptAndComparedWithWhatWasDone) {
   ASSERT_TRUE(ready(trainer)) << trainer.refusal();
   const cases::Case& scene = trainer.attempt()->task()->scene;
   const glm::dvec3 target = scene.lesions.front().center_lps_mm;
-  EXPECT_FALSE(trainer.proposes_path());
-  trainer.plan_as_proposed();
-  EXPECT_FALSE(trainer.plan()) << "this case proposes none";
+  EXPECT_TRUE(trainer.proposes_path());
   trainer.plan_entry(target);
   ASSERT_TRUE(trainer.plan());
   EXPECT_NEAR(std::abs(scene.skin_index.closest(trainer.plan()->entry_lps_mm).distance_mm), 0.0, 0.01)
@@ -66,6 +64,24 @@ TEST_F(TrainerTest, AWayThatIsPlannedIsKeptAndComparedWithWhatWasDone) {
   EXPECT_TRUE(trainer.plan());
   trainer.log_out();
   EXPECT_FALSE(trainer.plan()) << "the next to log in has planned nothing";
+}
+
+TEST_F(TrainerTest, ACaseWithoutAPlannedEntryProposesNoPath) {
+  {
+    casedb::Library library = open();
+    casedb::NewCase made = fixtures::new_ball();
+    made.planned_entry_lps_mm.reset();
+    case_id_ = casedb::add_case(library, made);
+    ASSERT_TRUE(casedb::add_lesion(library, case_id_, fixtures::ball_target(kDepthMm)));
+  }
+  publish();
+  Trainer trainer(open());
+  trainer.log_in("tina", kPassword);
+  trainer.choose(case_id_);
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  EXPECT_FALSE(trainer.proposes_path());
+  trainer.plan_as_proposed();
+  EXPECT_FALSE(trainer.plan());
 }
 
 TEST(PlanWords, TellTheWayAndWhatSpeaksAgainstIt) {
