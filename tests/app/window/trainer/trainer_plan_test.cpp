@@ -69,6 +69,24 @@ TEST_F(TrainerTest, AWayThatIsPlannedIsKeptAndComparedWithWhatWasDone) {
   EXPECT_FALSE(trainer.plan()) << "the next to log in has planned nothing";
 }
 
+TEST_F(TrainerTest, ACaseWithoutAPlannedEntryProposesNoPath) {
+  {
+    casedb::Library library = open();
+    casedb::NewCase made = fixtures::new_ball();
+    made.planned_entry_lps_mm.reset();
+    case_id_ = casedb::add_case(library, made);
+    ASSERT_TRUE(casedb::add_lesion(library, case_id_, fixtures::ball_target(kDepthMm)));
+  }
+  publish();
+  Trainer trainer(open());
+  trainer.log_in("tina", kPassword);
+  trainer.choose(case_id_);
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  EXPECT_FALSE(trainer.proposes_path());
+  trainer.plan_as_proposed();
+  EXPECT_FALSE(trainer.plan());
+}
+
 TEST(PlanWords, TellTheWayAndWhatSpeaksAgainstIt) {
   session::PlannedWay way;
   way.length_mm = 62.4;
