@@ -204,7 +204,7 @@ void BriefingPanel::draw_task(Trainer& trainer) {
 }
 
 // The button, or what is still missing.
-bool BriefingPanel::draw_enter(const Trainer& trainer, const Keys& keys, bool all, bool at_back) {
+bool BriefingPanel::draw_enter(Trainer& trainer, const Keys& keys, bool all, bool at_back) {
   const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
   const bool probe = trainer.probes().empty() || !trainer.chosen_probe().empty();
   const bool may_begin = ready && all && probe;

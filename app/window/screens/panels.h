@@ -83,7 +83,7 @@ class BriefingPanel {
 
  private:
   bool draw_sign_in(const casedb::CaseRow& row);  // whether all of it is checked
-  bool draw_enter(const Trainer& trainer, const Keys& keys, bool all, bool at_back);
+  bool draw_enter(Trainer& trainer, const Keys& keys, bool all, bool at_back);
 
   void draw_task(Trainer& trainer);
 
