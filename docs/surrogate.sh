@@ -40,7 +40,7 @@ for part in "$folder"/part-*.json; do set -- "$@" --from "$part"; done
 told() {
   name=$1
   shift
-  "$program" surrogate "$@" --surrogate "$folder/surrogate.json" >"$folder/$name.md" || [ $? -eq 1 ]
+  "$program" surrogate "$@" --surrogate "$folder/surrogate.json" >"$folder/$name".md || [ $? -eq 1 ]
 }
 set --
 for level in novice intermediate expert shift-0 shift-0.8; do

@@ -80,9 +80,9 @@ void EditorPanel::draw_preparation(CaseEditor& editor) {
     } else {
       ImGui::TextUnformatted("no skin to compare with the full surface");
     }
-    ImGui::Text("%zu triangles of %zu", cost.triangles, cost.full_triangles);
-    if (const std::string less = casedb::less_decimated(made->settings, cost); !less.empty())
-      ImGui::TextWrapped("%s", less.c_str());
+    // On one line: the sliders below stay in sight.
+    const bool less = !casedb::less_decimated(made->settings, cost).empty();
+    ImGui::Text("%zu triangles of %zu%s", cost.triangles, cost.full_triangles, less ? ": fewer would open it" : "");
     ImGui::Text("HU differ by %.1f on average, 95 %% by %.0f", cost.mean_hu, cost.most_95_hu);
     note_item("what it costs");
   }
