@@ -122,10 +122,7 @@ void add_curve(Html& html, const LearnerItem& item, const assessment::Criterion&
   } else {
     html.raw("<p>Levels off at ").text(assessment::plain_value(*further(answer, "plateau"), info.unit));
     const auto low = further(answer, "plateau_low"), high = further(answer, "plateau_high");
-    if (low && high)
-      html.raw(" (95 % interval ")
-          .text(assessment::plain_value(*low, info.unit) + " to " + assessment::plain_value(*high, info.unit))
-          .raw(")");
+    if (low && high) html.raw(" (95 % interval ").text(interval_text(statistics::Interval{*low, *high})).raw(")");
     html.raw("; half of the way there at attempt ").text(digits_text(*further(answer, "half_way_at")));
     html.raw(", by ").text(answer.method).raw(".</p>\n");
   }

@@ -210,7 +210,7 @@ TEST(Cli, ImportAnswersTheContractAndTheTitleIsNotTheSources) {
   const Json samples = Json::parse(sample.out).at("samples");
   ASSERT_EQ(samples.size(), 2U);
   EXPECT_EQ(samples[0].at("lps_mm"), Json::parse("[-115.0, -5.0, -98.0]"));
-  EXPECT_EQ(samples[0].at("class"), "lung");
+  EXPECT_EQ(samples[0].at("class"), "soft_tissue");
   for (const char* field : {"organ", "confidence"}) EXPECT_TRUE(samples[0].contains(field)) << field;
   for (const char* field : {"class", "organ", "confidence"}) EXPECT_TRUE(samples[1].at(field).is_null()) << field;
   EXPECT_TRUE(samples[1].at("hu_nearest").is_null());
