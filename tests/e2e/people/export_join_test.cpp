@@ -161,7 +161,7 @@ TEST(ExportJoin, OneKnownValueFindsFewOfAnExportWithoutAKey) {
   for (const auto& [metric, limit] : most) {
     const int of_exact = made().found_by(exact, metric, itself),
               of_coarse = made().found_by(coarse, metric, two_digits);
-    EXPECT_EQ(of_exact, kAttempts) << metric << ": this was so without a key, too";
+    EXPECT_GE(of_exact, kAttempts - 2) << metric << ": this was so without a key, too; two may be as long";
     EXPECT_LE(of_coarse, limit) << metric;
     EXPECT_EQ(made().found_by(coarse, metric, itself), 0) << metric;
   }
