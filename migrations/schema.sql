@@ -1,4 +1,4 @@
--- The sum of the numbered steps beside this file, for reading. Written by casedb_migrate_test.
+-- The sum of the numbered steps beside this file: what a new library is made of. Written by casedb_database_test.
 
 CREATE TABLE account (
   person_id TEXT NOT NULL PRIMARY KEY REFERENCES person (person_id),
@@ -780,6 +780,8 @@ CREATE TABLE workshop_tick (
   FOREIGN KEY (workshop_id, number) REFERENCES workshop_participant (workshop_id, number) ON DELETE CASCADE,
   FOREIGN KEY (workshop_id, place) REFERENCES workshop_station (workshop_id, place)
 ) STRICT;
+
+INSERT INTO audit_head VALUES (1, 0, '0000000000000000000000000000000000000000000000000000000000000000');
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 

@@ -32,13 +32,20 @@ void check_step_names(const Schema& schema) {
   }
 }
 
+// Files as they lie in a folder: the numbered ones, then schema.sql.
+Schema schema_of(std::int32_t application_id, std::span<const base::EmbeddedFile> files) {
+  return {application_id, files.first(files.size() - 1), base::content_of(files, "schema.sql")};
+}
+
 // From `first` to `last`, whole or not at all.
 void walk(Sqlite& database, const Schema& schema, int first, int last) {
   Transaction transaction(database);
   if (database.integer("PRAGMA user_version") >= first) return;  // another process was faster
   const auto differences = digest_differences(database);         // damage stays damage
   if (first == 1) database.run("PRAGMA application_id = " + std::to_string(schema.application_id));
-  for (int step = first; step <= last; ++step)
+  const bool by_sum = first == 1 && last == newest_version(schema) && !schema.sum.empty();
+  if (by_sum) database.run(std::string(schema.sum));
+  for (int step = first; step <= last && !by_sum; ++step)
     database.run(std::string(schema.steps[static_cast<std::size_t>(step) - 1].content));
   database.run("PRAGMA user_version = " + std::to_string(last));
   if (has_digests(database)) renew_digests(database, differences);
@@ -82,11 +89,11 @@ base::Result<void> fits(Sqlite& database, const Schema& schema, int version) {
 }  // namespace
 
 Schema library_schema() {
-  return {0x534c4447, embedded::migrations()};  // "SLDG"
+  return schema_of(0x534c4447, embedded::migrations());  // "SLDG"
 }
 
 Schema identities_schema() {
-  return {0x534c4449, embedded::identity_migrations()};  // "SLDI"
+  return schema_of(0x534c4449, embedded::identity_migrations());  // "SLDI"
 }
 
 int newest_version(const Schema& schema) {
@@ -141,8 +148,9 @@ base::Result<void> migrate(Sqlite& database, const Schema& schema) {
 
 void build(Sqlite& database, const Schema& schema, int version) {
   const auto first = static_cast<int>(database.integer("PRAGMA user_version")) + 1;
-  if (first == 1 && version > 0)
-    return walk(database, schema, first, version);  // of nothing there is one digest to take
+  // Of nothing, and of rows in memory, which nobody else walks, there is one digest to take.
+  const bool at_once = first == 1 || database.file() == ":memory:";
+  if (at_once && first <= version) return walk(database, schema, first, version);
   for (int step = first; step <= version; ++step) walk(database, schema, step, step);
 }
 

@@ -1,10 +1,11 @@
 // Brings a database file to the schema this program knows: numbered steps from migrations/, never edited after
-// release, each one transaction with its version number. A new file walks all of them.
+// release, each one transaction with its version number. A new file takes the sum of them, migrations/schema.sql.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "casedb/database/sqlite.h"
 #include "sim/base/embedded.h"
@@ -15,6 +16,7 @@ namespace seldinger::casedb {
 struct Schema {
   std::int32_t application_id = 0;              // marks the file as ours (SQLite's header, offset 68)
   std::span<const base::EmbeddedFile> steps{};  // "0001_….sql", "0002_….sql", …
+  std::string_view sum{};  // what all of them make of nothing, twenty times as fast; empty: they are walked
 };
 
 Schema library_schema();
@@ -30,7 +32,7 @@ base::Result<int> schema_version(Sqlite& database, const Schema& schema);
 // by one of them.
 base::Result<void> migrate(Sqlite& database, const Schema& schema);
 
-// Walks the missing steps up to a version and no further; copies nothing.
+// Walks the missing steps up to a version and no further, or takes their sum; copies nothing.
 void build(Sqlite& database, const Schema& schema, int version);
 int newest_version(const Schema& schema);
 

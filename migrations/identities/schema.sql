@@ -1,4 +1,4 @@
--- The sum of the numbered steps beside this file, for reading. Written by casedb_migrate_test.
+-- The sum of the numbered steps beside this file: what a new library is made of. Written by casedb_database_test.
 
 CREATE TABLE digest (
   of_table TEXT NOT NULL,

@@ -159,7 +159,8 @@ TEST_F(TroubleTest, ALibraryOfEverySchemaIsCopiedAndMigrated) {
   Library now = open_library(folder_);
   const std::string case_id = list_cases(now).at(0).case_id;
   // A draft may change its laws; these every schema knows that has the columns.
-  now.database().run("UPDATE training_case SET sight_law = 'half_slice', touch_law = 'steady'");
+  now.database().run(
+      "UPDATE training_case SET sight_law = 'half_slice', touch_law = 'steady', breath_law = 'equal_holds'");
   for (int version = 1; version < newest_version(newest); ++version) {
     const fs::path old_folder = scratch_ / ("schema" + std::to_string(version));
     const fs::path file = old_folder / "seldinger.sqlite";

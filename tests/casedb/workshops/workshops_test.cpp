@@ -9,6 +9,8 @@
 #include "casedb/keeping/erase.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/people.h"
+#include "casedb/studies/plans.h"
+#include "tests/assessment/study/sample_plan.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::casedb {
@@ -82,6 +84,17 @@ TEST_F(WorkshopsTest, NobodyComesInWithoutConsent) {
   ASSERT_TRUE(close_workshop(library_, day));
   EXPECT_EQ(code_of(close_workshop(library_, day)), "workshop_closed");
   EXPECT_EQ(code_of(admit_to_workshop(library_, day, person("Ann"), "new", true)), "workshop_closed");
+}
+
+TEST_F(WorkshopsTest, NobodyRealComesToAStudyOfSimulatedPeople) {
+  ask();
+  std::string plan = assessment::study::sample_plan_json(R"(, "people": "simulated")");
+  for (std::size_t at = plan.find("case-1"); at != plan.npos; at = plan.find("case-1"))
+    plan.replace(at, 6, case_id_);
+  ASSERT_TRUE(store_plan(library_, study_, plan));
+  const Workshop day = open();
+  EXPECT_EQ(code_of(admit_to_workshop(library_, day, person("Zoe"), "new", true)), "real_person");
+  EXPECT_TRUE(consenting_people(library_, study_).empty()) << "of whom is refused nothing is kept";
 }
 
 TEST_F(WorkshopsTest, WhatIsDoneIsToldFromWhenSomebodyCame) {
