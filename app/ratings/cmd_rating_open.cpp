@@ -32,8 +32,7 @@ base::Result<std::vector<casedb::AttemptRow>> attempts_to_rate(casedb::Library& 
   if (arguments.has("--study") && rows.empty()) {
     const auto study = casedb::find_study(library, arguments.text("--study"));
     if (!study) return study.error();
-    const auto plan = casedb::find_plan(library, study->study_id);
-    people = plan ? casedb::people_asked(library, *plan) : casedb::consenting_people(library, study->study_id);
+    people = casedb::people_asked(library, study->study_id);
   }
   if (arguments.has("--cohort")) {
     const auto cohort = casedb::find_cohort(library, arguments.text("--cohort"));
@@ -54,13 +53,13 @@ base::Result<std::vector<casedb::AttemptRow>> attempts_to_rate(casedb::Library& 
   return rows;
 }
 
-// Only what somebody may see themselves do they hand to raters; of a study only what people consent to.
+// Only what somebody may see themselves do they hand to raters; of a study only whom its plan is of, by consent.
 base::Result<void> may_hand_out(casedb::Library& library, const Arguments& arguments,
                                 const std::optional<std::string>& study_id, const casedb::AttemptRow& row) {
   if (const auto by = acting_on(library, arguments, casedb::Action::see_attempt, row.person_id); !by)
     return by.error();
-  if (study_id && row.person_id && !casedb::consenting_people(library, study_id).contains(*row.person_id))
-    return base::Error{"no_consent", "whose attempt it is does not consent to the study"};
+  if (study_id && row.person_id && !casedb::people_asked(library, *study_id).contains(*row.person_id))
+    return base::Error{"no_consent", "whose attempt it is does not consent to the study, or is not whom it is of"};
   return {};
 }
 

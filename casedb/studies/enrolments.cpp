@@ -80,6 +80,11 @@ std::set<std::string> people_asked(Library& library, const StoredPlan& stored) {
   return people;
 }
 
+std::set<std::string> people_asked(Library& library, const std::string& study_id) {
+  const auto plan = find_plan(library, study_id);
+  return plan ? people_asked(library, *plan) : consenting_people(library, study_id);
+}
+
 base::Result<StudyEnrolment> enrol_in_study(Library& library, const std::string& study_id,
                                             const std::string& person_id) {
   Transaction transaction(library.database());

@@ -23,6 +23,8 @@ struct StudyEnrolment {
 
 // Who may be enrolled, or is: people whose consent stands, of the kind that the plan is of.
 std::set<std::string> people_asked(Library& library, const StoredPlan& stored);
+// By the study's plan; where there is none yet, all whose consent stands.
+std::set<std::string> people_asked(Library& library, const std::string& study_id);
 // By the facts that hold now. `no_plan`, `plan_not_frozen`, `data_locked`, `no_person`, `real_person` (the study is
 // of simulated people), `no_consent`, `already_enrolled`, `fact_missing` (the person has not said what the plan
 // asks), `no_group` (none fits, or more than one).

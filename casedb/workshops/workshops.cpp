@@ -16,6 +16,7 @@
 #include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
 #include "casedb/questionnaires/drawn_word.h"
+#include "casedb/studies/enrolments.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -167,6 +168,8 @@ base::Result<Participant> admit_to_workshop(Library& library, const Workshop& wo
   }
   if (!consenting_people(library, now->study_id).contains(person_id))
     return base::Error{"no_consent", "nobody takes part whose consent to the study does not stand"};
+  if (!people_asked(library, now->study_id).contains(person_id))
+    return base::Error{"real_person", "the study is of simulated people, and this person is a real one"};
   const auto came = [&]() -> std::optional<Participant> {
     for (Participant& one : list_participants(library, *now))
       if (one.person_id == person_id) return std::move(one);

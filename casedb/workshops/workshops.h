@@ -56,7 +56,8 @@ struct Participant {
 
 // Whoever comes to the door. `consents_now`: they have just signed the study's newest text, which is stored with
 // them; else their consent stands already. Nothing is kept of whom is refused: `workshop_closed`, `bad_group`,
-// `no_person`, `no_text` (the study asks for no consent), `no_consent`, `already_admitted`.
+// `no_person`, `no_text` (the study asks for no consent), `no_consent`, `real_person` (its plan is of simulated
+// people), `already_admitted`.
 base::Result<Participant> admit_to_workshop(Library& library, const Workshop& workshop,
                                             const std::string& person_id, const std::string& group,
                                             bool consents_now);

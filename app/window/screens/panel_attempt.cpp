@@ -153,6 +153,10 @@ void AttemptPanel::tell(TraceLine& line) {
   line.attempt_s = seen_.moment.state.t_s;
   line.fired = seen_.moment.state.fire.fired;
   line.console = monitor_.shown().console;
+  // As asked: a picture does not tell where colour's box is.
+  line.console.lean_deg = told_.console.lean_deg;
+  line.console.box_across = told_.console.box_across;
+  line.console.box_down = told_.console.box_down;
   line.gain_db = monitor_.knobs().screen.gain_db;
   line.needle_lps_mm = seen_.moment.state.needle.tip_lps_mm;
   line.probe_lps_mm = seen_.moment.state.probe.origin_lps_mm;

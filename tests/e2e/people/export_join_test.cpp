@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <string_view>
 
 #include "casedb/attempts/attempts.h"
 #include "casedb/people/people.h"
@@ -161,7 +162,9 @@ TEST(ExportJoin, OneKnownValueFindsFewOfAnExportWithoutAKey) {
   for (const auto& [metric, limit] : most) {
     const int of_exact = made().found_by(exact, metric, itself),
               of_coarse = made().found_by(coarse, metric, two_digits);
-    EXPECT_GE(of_exact, kAttempts - 2) << metric << ": this was so without a key, too; two may be as long";
+    // Two attempts may have lasted as many ticks.
+    EXPECT_GE(of_exact, std::string_view(metric) == "time_total" ? kAttempts - 2 : kAttempts)
+        << metric << ": this was so without a key, too";
     EXPECT_LE(of_coarse, limit) << metric;
     EXPECT_EQ(made().found_by(coarse, metric, itself), 0) << metric;
   }

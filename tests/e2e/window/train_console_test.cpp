@@ -127,6 +127,8 @@ TEST_F(TrainConsoleTest, DepthAndFrequencyAreTheTraineesAndStandInTheAttempt) {
   EXPECT_DOUBLE_EQ(end.frequency_mhz, last["frequency_mhz"].get<double>());
   EXPECT_EQ(end.colour_mm_s, 200.0);
   EXPECT_EQ(end.compound_deg, 12.0);
+  EXPECT_DOUBLE_EQ(end.box_across, last["box_across"].get<double>());
+  EXPECT_DOUBLE_EQ(end.box_down, last["box_down"].get<double>());
   double upper = 1.0, left = 1.0;  // nearly all of the picture before it is dragged
   for (const cases::Inputs& inputs : recording.inputs)
     if (inputs.console.box_down > 0.0) {
