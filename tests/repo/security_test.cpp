@@ -22,7 +22,7 @@ struct Tests {
   std::set<std::string> whole, names, suites, programs;  // "Suite.Name", "Name", "Suite", "some_test"
 };
 
-Tests all_tests() {
+Tests read_tests() {
   static const std::regex kTest(R"(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\))");
   static const std::regex kProgram(R"(\bNAME\s+(\w+_test)\b|seldinger(?:_program)?_test\((\w+))");
   Tests tests;
@@ -42,6 +42,11 @@ Tests all_tests() {
       tests.whole.insert(it->str(1) + "." + it->str(2));
     }
   }
+  return tests;
+}
+
+const Tests& all_tests() {
+  static const Tests tests = read_tests();
   return tests;
 }
 
@@ -96,7 +101,7 @@ std::vector<std::string> named_in(const std::string& text) {
 }
 
 TEST(Security, EachPromiseAndEachAttackNamesATestThatIsThere) {
-  const Tests tests = all_tests();
+  const Tests& tests = all_tests();
   const auto rows = rows_with_tests(seldinger::fixtures::whole_file(kRoot / "SECURITY.md"));
   EXPECT_GT(rows.size(), 60U);
   for (const auto& cells : rows) {
@@ -110,7 +115,7 @@ TEST(Security, EachPromiseAndEachAttackNamesATestThatIsThere) {
 }
 
 TEST(Security, ATestThatIsNotThereIsMissed) {
-  const Tests tests = all_tests();
+  const Tests& tests = all_tests();
   EXPECT_TRUE(is_test(tests, "Security.ATestThatIsNotThereIsMissed"));
   EXPECT_TRUE(is_test(tests, "Security.ATest…"));
   EXPECT_TRUE(is_test(tests, "Security.*"));
