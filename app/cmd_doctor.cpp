@@ -126,8 +126,8 @@ Command doctor_command() {
   return {.name = "doctor",
           .options = kLibraryJson,
           .summary =
-              "Tells what this machine can do (GL, display, devices, real-time rights, disk, schema), and whether "
-              "somebody can train at it: yes, slowly or no, and why; 1 when not.",
+              "Reports what this machine can do (GL, display, devices, real-time rights, disk, schema), and "
+              "whether somebody can train on it: yes, slowly or no, and why; 1 when not.",
           .run = &run_doctor};
 }
 

@@ -75,7 +75,7 @@ Command login_command() {
 }
 
 Command logout_command() {
-  return {.name = "logout", .options = kLogoutOptions, .summary = "Ends it.", .run = &run_logout};
+  return {.name = "logout", .options = kLogoutOptions, .summary = "Ends that session.", .run = &run_logout};
 }
 
 }  // namespace seldinger::app

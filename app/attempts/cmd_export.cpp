@@ -115,15 +115,17 @@ int run_export(const Arguments& arguments) {
 constexpr Option kExportOptions[] = {
     kLibrary,
     {"--out", "DIR", "the new folder"},
-    {"--case", "CASE", "attempts at this case only; default: every attempt"},
-    {"--study", "STUDY", "of those who consent to it; default: of those who consent to research with this library"},
-    {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
+    {"--case", "CASE", "only attempts on this case; default: every attempt"},
+    {"--study", "STUDY",
+     "attempts of people who consent to it; default: of people who consent to research with this library"},
+    {"--raw", "poses,forces,frames,events|none", "which parts of the recordings; default all"},
     {"--also", "sqlite,slicer,xapi,motion-bids",
      "the same in other formats, into the same folder: one SQLite file, 3D Slicer's markups and transforms, xAPI "
      "statements, a Motion-BIDS data set"},
     {"--key", "FILE",
-     "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
-     "Keep it apart from what you pass on. With --study people's numbers are exact and their recordings are in it"},
+     "gives people, attempts and cases the same names as in other exports with this key; created if there is none. "
+     "Keep it apart from what you pass on. With --study people's numbers are exact and their recordings are "
+     "included"},
     kJson};
 
 }  // namespace
@@ -133,9 +135,8 @@ Command export_command() {
           .options = kExportOptions,
           .acts = true,
           .summary =
-              "Writes attempts of those who consent, and simulated ones, as CSV with a data dictionary into a new "
-              "folder: no "
-              "names, no dates (docs/export.md).",
+              "Writes the attempts of people who consent, and simulated ones, as CSV with a data dictionary into a "
+              "new folder: no names, no dates (docs/export.md).",
           .run = &run_export};
 }
 

@@ -147,17 +147,17 @@ int run_case_lesion(const Arguments& arguments) {
 constexpr Option kLesionOptions[] = {
     kLibrary,
     {"--center-mm", "X,Y,Z", "centre, LPS"},
-    {"--radius-mm", "R", "of a sphere, or the mean one of an irregular lesion"},
-    {"--radii-mm", "A,B,C", "an ellipsoid's, along LPS"},
+    {"--radius-mm", "R", "radius of a sphere, or mean radius of an irregular lesion"},
+    {"--radii-mm", "A,B,C", "radii of an ellipsoid, along LPS"},
     {"--irregular", "SHARE", "standard deviation of the radius, as a share of it: 0 to 0.3"},
-    {"--seed", "N", "which irregular one; default 1"},
+    {"--seed", "N", "which irregular shape; default 1"},
     {"--kind", "KIND",
-     "what it is: cyst, hcc, metastasis, haemangioma, abscess, node or isoechoic; default by_hu, the "
-     "tissue of its HU"},
+     "what it is: cyst, hcc, metastasis, haemangioma, abscess, node or isoechoic; default by_hu, the tissue that "
+     "fits its HU"},
     {"--hu", "H", "its HU; default the kind's"},
     {"--contrast-hu", "D", "in place of --hu: added to the tissue there"},
-    {"--edge-mm", "W", "width of its edge, from all to nothing; default 0"},
-    {"--remove", "LESION", "takes one away again"},
+    {"--edge-mm", "W", "width of its edge, over which it fades to nothing; default 0"},
+    {"--remove", "LESION", "removes one again"},
     kJson};
 
 }  // namespace

@@ -30,10 +30,10 @@ int run_deidentify(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kDeidentifyOptions[] = {
-    {"--key", "FILE",
-     "keeps UIDs consistent with other runs; made when there is none. Whoever has it can tell them apart"},
-    kJson};
+constexpr Option kDeidentifyOptions[] = {{"--key", "FILE",
+                                          "keeps UIDs consistent with other runs; created if there is none. "
+                                          "Whoever has it can link the new UIDs to the old ones"},
+                                         kJson};
 
 }  // namespace
 
@@ -44,8 +44,8 @@ Command deidentify_command() {
           .max_positionals = 2,
           .options = kDeidentifyOptions,
           .summary =
-              "Writes DICOM without identity (PS3.15 Basic Profile 2024b): a file, or a folder with all below it, "
-              "into a new folder. What the pixels show stays; other bits of their cells are cleared.",
+              "Writes de-identified DICOM (PS3.15 Basic Profile 2024b): a file, or a folder with everything below "
+              "it, into a new folder. What the pixels show stays; other bits of their cells are cleared.",
           .run = &run_deidentify};
 }
 

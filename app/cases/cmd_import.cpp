@@ -226,9 +226,9 @@ int run_case_confirm(const Arguments& arguments) {
 constexpr Option kBeforePreparation[] = {
     kLibrary,
     {"--built-in", "torso|groin|neck",
-     "in place of SOURCE: the built-in patient, made by formulas, no person's CT"},
-    {"--body", "adult|lean|obese|child", "of the built-in patient; default adult"},
-    {"--calyces", "normal|dilated|opacified", "of the built-in torso; default normal"},
+     "in place of SOURCE: the built-in patient, made by formulas, not from a person's CT"},
+    {"--body", "adult|lean|obese|child", "the built-in patient's build; default adult"},
+    {"--calyces", "normal|dilated|opacified", "the built-in torso's calyces; default normal"},
     {"--title", "TEXT", "the case's title; never taken from the source"},
     kSeries,
     {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
@@ -237,7 +237,7 @@ constexpr Option kBeforePreparation[] = {
     kReason,
 };
 constexpr Option kAfterPreparation[] = {
-    {"--large", nullptr, "takes a file whose voxels are more than 4 GiB unpacked, up to 8"},
+    {"--large", nullptr, "accepts a file whose voxels are more than 4 GiB unpacked, up to 8"},
     {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
     kJson};
 constexpr auto kImportOptions = [] {
@@ -277,7 +277,7 @@ Command sample_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kSampleOptions,
-          .summary = "Prints the HU at points of a case, and which tissue and organ are there.",
+          .summary = "Prints the HU, tissue and organ at points of a case.",
           .run = &run_sample};
 }
 

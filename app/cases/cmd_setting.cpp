@@ -141,8 +141,8 @@ Command case_setting_command() {
           .options = kSettingOptions,
           .acts = true,
           .summary =
-              "Sets what a case asks of the trainee: guidance, needle, patient, limits, pass rule. What is "
-              "not given stays.",
+              "Sets what a case asks of the trainee: guidance, needle, patient, limits, pass rule. Settings not "
+              "given stay as they are.",
           .run = &run_case_setting};
 }
 

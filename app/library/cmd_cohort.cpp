@@ -101,13 +101,13 @@ int run_cohort_direct(const Arguments& arguments) {
 
 constexpr Option kCohortAddOptions[] = {kLibrary,
                                         {"--programme", "TEXT", "the programme to which it belongs"},
-                                        {"--site", "TEXT", "where; may be left out"},
+                                        {"--site", "TEXT", "where it is; optional"},
                                         kJson};
 constexpr Option kCohortEnrolOptions[] = {kLibrary,
                                           kWhose,
                                           {"--mentor", nullptr, "as a mentor; else as a learner"},
-                                          {"--end", nullptr, "from now on no longer, in neither post"}};
-constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}};
+                                          {"--end", nullptr, "end it from now on, as learner and as mentor"}};
+constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "end it from now on"}};
 
 }  // namespace
 
@@ -132,7 +132,7 @@ Command cohort_show_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kLibraryJson,
-          .summary = "Shows who is and was in a cohort, by its title or id.",
+          .summary = "Shows who is and was in a cohort.",
           .run = &run_cohort_show};
 }
 
@@ -154,7 +154,7 @@ Command cohort_direct_command() {
           .max_positionals = 1,
           .options = kCohortDirectOptions,
           .acts = true,
-          .summary = "Makes somebody director of a programme, who sees the learners of its cohorts by name.",
+          .summary = "Makes somebody director of a programme; a director sees the learners of its cohorts by name.",
           .run = &run_cohort_direct};
 }
 

@@ -60,7 +60,7 @@ Command user_erase_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Erases a person: name, account, recordings, results and facts. What is left is an empty row.",
+          .summary = "Erases a person: name, account, recordings, results and facts. Only an empty row remains.",
           .run = &run_user_erase};
 }
 
@@ -71,7 +71,7 @@ Command attempt_delete_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Erases one attempt with its recording and results; an empty row is left.",
+          .summary = "Erases one attempt with its recording and results; only an empty row remains.",
           .run = &run_attempt_delete};
 }
 

@@ -71,7 +71,7 @@ Command render_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kRenderOptions,
-          .summary = "Renders a scene's view (mpr, xray, ultrasound, room).",
+          .summary = "Renders a view of a scene (mpr, xray, ultrasound, room).",
           .run = &run_render};
 }
 

@@ -110,18 +110,18 @@ int run_study_simulate(const Arguments& arguments) {
 }
 
 constexpr Option kSimulateOptions[] = {
-    {"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote of the plan's case"},
+    {"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote for the plan's case"},
     {"--shift", "GROUP=X",
-     "by how many standard deviations a group's abilities are shifted, or novice, intermediate, "
-     "expert; once for every group of the plan",
+     "shift of a group's abilities in standard deviations, or novice, intermediate, expert; once for every group "
+     "of the plan",
      true},
     {"--per-group", "N", "people in each group; default the plan's"},
     {"--studies", "N", "how many studies; default 1000"},
-    {"--sites", "N", "sites that people are dealt to; default 1"},
-    {"--devices", "N", "devices at each; default 1"},
-    {"--raters", "N", "who rate every attempt; default none"},
-    {"--seed", "N", "of everything that is drawn; default 1"},
-    {"--truth-people", "N", "of each group, to tell what is true; default 20000"},
+    {"--sites", "N", "sites among which people are divided; default 1"},
+    {"--devices", "N", "devices at each site; default 1"},
+    {"--raters", "N", "raters, who rate every attempt; default none"},
+    {"--seed", "N", "for everything that is drawn at random; default 1"},
+    {"--truth-people", "N", "people in each group that give the true value; default 20000"},
     {"--out", "DIR", "a new folder for the first study's people, metrics, ratings and answers as CSV"},
     kJson};
 
@@ -133,7 +133,7 @@ Command study_simulate_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kSimulateOptions,
-          .summary = "Does a plan's analysis in thousands of simulated studies: power, size, coverage, width.",
+          .summary = "Runs a plan's analysis in thousands of simulated studies: power, size, coverage, width.",
           .run = &run_study_simulate};
 }
 

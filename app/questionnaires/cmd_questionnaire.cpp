@@ -131,7 +131,7 @@ Command questionnaire_add_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Stores a questionnaire for good; what asks otherwise is another version.",
+          .summary = "Stores a questionnaire for good; different questions need a new version.",
           .run = &run_questionnaire_add};
 }
 

@@ -89,7 +89,7 @@ int run_rating_export(const Arguments& arguments) {
 constexpr Option kRatingExportOptions[] = {
     kLibrary,
     {"--out", "FILE.csv", "the file: a line for each rating, as `seldinger stats` takes it"},
-    {"--all", nullptr, "also the calibration set and what was rated twice; the column part tells them apart"}};
+    {"--all", nullptr, "also the calibration set and the repeated ratings; the column part tells them apart"}};
 
 }  // namespace
 
@@ -101,8 +101,8 @@ Command rating_show_command() {
           .options = kLibraryJson,
           .acts = true,
           .summary =
-              "How far raters agree by now: with each other, known scores and themselves; how severe each is, "
-              "and whether that drifts.",
+              "Shows how far raters agree so far: with each other, with known scores and with themselves; how "
+              "severe each is, and whether that drifts.",
           .run = &run_rating_show};
 }
 
@@ -113,7 +113,7 @@ Command rating_export_command() {
           .max_positionals = 1,
           .options = kRatingExportOptions,
           .acts = true,
-          .summary = "Writes what raters, by their pseudonyms, said of which attempt.",
+          .summary = "Writes how each rater, by pseudonym, rated each attempt.",
           .run = &run_rating_export};
 }
 

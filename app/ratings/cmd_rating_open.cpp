@@ -147,16 +147,16 @@ int run_rating_open(const Arguments& arguments) {
 
 constexpr Option kRatingOpenOptions[] = {
     kLibrary,
-    {"--title", "TEXT", "what raters read; let it name no person, group or day"},
+    {"--title", "TEXT", "the title that raters read; it should not name a person, group or day"},
     {"--version", "N", "of this version of the form; default: the newest"},
-    {"--attempt", "ATTEMPT", "this attempt is rated", true},
+    {"--attempt", "ATTEMPT", "an attempt to be rated", true},
     {"--study", "STUDY",
-     "ratings are of this study; without --attempt or --cohort all that its consenting people made"},
-    {"--cohort", "COHORT", "what those who are in it now made"},
-    {"--case", "CASE", "only what was made at this case"},
-    {"--raters", "N", "so many raters, 1 to 12; default 2"},
-    {"--each", "N", "as many of them rate a replay; default 2"},
-    {"--repeats", "N", "so many replays a rater rates twice, at most a third of theirs; default 0"},
+     "ratings belong to this study; without --attempt or --cohort: every attempt of its consenting people"},
+    {"--cohort", "COHORT", "every attempt of its current members"},
+    {"--case", "CASE", "only attempts on this case"},
+    {"--raters", "N", "how many raters, 1 to 12; default 2"},
+    {"--each", "N", "how many of them rate each replay; default 2"},
+    {"--repeats", "N", "how many replays each rater rates twice, at most a third of theirs; default 0"},
     {"--known", "FILE.csv", "the calibration set: a column attempt, and one for each item with an agreed score"},
     kJson};
 
@@ -170,8 +170,8 @@ Command rating_open_command() {
           .options = kRatingOpenOptions,
           .acts = true,
           .summary =
-              "Draws replays without a word of whose they are, says who rates which, and prints the raters' "
-              "keys (docs/ratings.md).",
+              "Draws replays without saying whose they are, assigns them to raters, and prints the raters' keys "
+              "(docs/ratings.md).",
           .run = &run_rating_open};
 }
 

@@ -50,7 +50,7 @@ int run_study_researcher(const Arguments& arguments) {
   return done ? kDone : refuse(done.error());
 }
 
-constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}};
+constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose, {"--end", nullptr, "end it from now on"}};
 
 }  // namespace
 
@@ -61,7 +61,7 @@ Command study_new_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Makes a study, to which people can consent.",
+          .summary = "Creates a study that people can consent to.",
           .run = &run_study_new};
 }
 
@@ -76,7 +76,7 @@ Command study_researcher_command() {
           .max_positionals = 1,
           .options = kStudyResearcherOptions,
           .acts = true,
-          .summary = "Lets a researcher see, as pseudonyms, those who consent to a study.",
+          .summary = "Lets a researcher see, under pseudonyms, the people who consent to a study.",
           .run = &run_study_researcher};
 }
 

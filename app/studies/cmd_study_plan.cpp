@@ -206,11 +206,12 @@ int run_study_deviate(const Arguments& arguments) {
   return done ? kDone : refuse(done.error());
 }
 
-constexpr Option kTemplateOptions[] = {
-    kLibrary, {"--case", "CASE", "the case that outcomes are measured at"}, {"--out", "FILE.json", "the new file"}};
+constexpr Option kTemplateOptions[] = {kLibrary,
+                                       {"--case", "CASE", "the case on which outcomes are measured"},
+                                       {"--out", "FILE.json", "the new file"}};
 constexpr Option kEnrolOptions[] = {kLibrary,
-                                    {"--user", "NAME", "whom"},
-                                    {"--all", nullptr, "everybody who consents, where groups are told by facts"},
+                                    {"--user", "NAME", "the person to enrol"},
+                                    {"--all", nullptr, "everybody who consents, where facts decide the group"},
                                     kJson};
 
 }  // namespace
@@ -219,8 +220,8 @@ Command study_template_command() {
   return {.name = "study template",
           .options = kTemplateOptions,
           .summary =
-              "Writes a plan to begin with: a valid draft, whose words that begin with REPLACE are replaced before "
-              "it is frozen (docs/studies.md).",
+              "Writes a plan to start from: a valid draft; replace the words that begin with REPLACE before it is "
+              "frozen (docs/studies.md).",
           .run = &run_study_template};
 }
 
@@ -231,7 +232,7 @@ Command study_plan_command() {
           .max_positionals = 2,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Stores the draft of a study's plan, in the place of an older draft.",
+          .summary = "Stores the draft of a study's plan, replacing an older draft.",
           .run = &run_study_plan};
 }
 
@@ -254,7 +255,8 @@ Command study_freeze_command() {
       .max_positionals = 1,
       .options = kLibraryJson,
       .acts = true,
-      .summary = "Freezes a study's plan for good; from then on people are enrolled and outcomes told by group.",
+      .summary =
+          "Freezes a study's plan for good; from then on people can be enrolled and outcomes are shown by group.",
       .run = &run_study_freeze};
 }
 
@@ -265,7 +267,8 @@ Command study_enrol_command() {
           .max_positionals = 1,
           .options = kEnrolOptions,
           .acts = true,
-          .summary = "Enrols who consents: by facts in a group, or by chance in an arm that nobody knew before.",
+          .summary =
+              "Enrols people who consent: in a group by their facts, or in a random arm that nobody knew before.",
           .run = &run_study_enrol};
 }
 
@@ -277,7 +280,8 @@ Command study_look_command() {
           .options = kLibraryJson,
           .acts = true,
           .summary =
-              "Does the planned analysis of a frozen plan and notes the look; of a draft, counts of all together.",
+              "Runs the analysis of a frozen plan and records the look; of a draft it shows only counts for "
+              "everybody together.",
           .run = &run_study_look};
 }
 
@@ -290,19 +294,20 @@ Command study_lock_command() {
           .acts = true,
           .summary =
               "Locks a study's data for good: attempts begun later are not analysed, and every report says whether "
-              "what it analyses is what was locked.",
+              "it analyses exactly what was locked.",
           .run = &run_study_lock};
 }
 
 Command study_deviate_command() {
-  return {.name = "study deviate",
-          .positionals = "STUDY TEXT",
-          .min_positionals = 2,
-          .max_positionals = 2,
-          .options = kLibraryOnly,
-          .acts = true,
-          .summary = "Notes what was done otherwise than planned; it is printed in every report and never edited.",
-          .run = &run_study_deviate};
+  return {
+      .name = "study deviate",
+      .positionals = "STUDY TEXT",
+      .min_positionals = 2,
+      .max_positionals = 2,
+      .options = kLibraryOnly,
+      .acts = true,
+      .summary = "Records what was done differently from the plan; it is printed in every report and never edited.",
+      .run = &run_study_deviate};
 }
 
 }  // namespace seldinger::app

@@ -47,7 +47,7 @@ int run_study_stations(const Arguments& arguments) {
 
 constexpr Option kStationOptions[] = {
     {"--station", "NAME", "a station, by its case or task; two to twelve", true},
-    {"--people", "N", "so many people; person 1 is whom you say, once the table is drawn"},
+    {"--people", "N", "how many people; once the table is drawn, you say who is person 1"},
     {"--seed", "N", "draws rows and stations; default 1"},
     {"--out", "FILE.csv", "the file; else it is printed"}};
 
@@ -57,8 +57,8 @@ Command study_stations_command() {
   return {.name = "study stations",
           .options = kStationOptions,
           .summary =
-              "Who is at which station when, for a day on which everybody goes through all: Williams' Latin "
-              "squares, in which each station follows each other equally often.",
+              "Draws who is at which station when, for a day on which everybody goes through all of them: "
+              "Williams' Latin squares, in which each station follows each other one equally often.",
           .run = &run_study_stations};
 }
 
