@@ -50,7 +50,7 @@ int run_logout(const Arguments& arguments) {
   const bool ended = casedb::end_login_session(*library, **token);
   casedb::wipe(**token);
   ::unlink(file.c_str());
-  std::puts(ended ? "logged out" : "the session was over");
+  std::puts(ended ? "logged out" : "the session had already ended");
   return kDone;
 }
 

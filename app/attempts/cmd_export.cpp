@@ -37,7 +37,7 @@ void choose_raw(const std::string& text, reports::RawChoice& choice) {
   if (text == "none") return;
   const std::pair<std::string_view, bool*> words[] = {
       {"poses", &choice.poses}, {"forces", &choice.forces}, {"frames", &choice.frames}, {"events", &choice.events}};
-  choose(text, words, "--raw takes none, or of poses, forces, frames and events");
+  choose(text, words, "--raw takes none, or any of poses, forces, frames and events");
 }
 
 void choose_formats(const std::string& text, reports::RawChoice& choice) {
@@ -45,7 +45,7 @@ void choose_formats(const std::string& text, reports::RawChoice& choice) {
                                                       {"slicer", &choice.slicer},
                                                       {"xapi", &choice.xapi},
                                                       {"motion-bids", &choice.motion_bids}};
-  choose(text, words, "--also takes of sqlite, slicer, xapi and motion-bids");
+  choose(text, words, "--also takes any of sqlite, slicer, xapi and motion-bids");
 }
 
 int run_export(const Arguments& arguments) {
@@ -73,7 +73,7 @@ int run_export(const Arguments& arguments) {
   const bool draft = choice.study_id && casedb::has_draft(*library, *choice.study_id);
   const auto& whose = library->actor().person_id;
   if (draft && whose && casedb::is_researcher_of(*library, *choice.study_id, *whose))
-    return refuse({"blinded", "until the plan is frozen nobody who works on the study gets outcomes by person"});
+    return refuse({"blinded", "until the plan is frozen nobody who works on the study may see outcomes by person"});
   const std::string key_file = arguments.text("--key");
   choice.exact = choice.study_id.has_value() && !key_file.empty();
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
@@ -107,8 +107,8 @@ int run_export(const Arguments& arguments) {
               done->synthetic, done->people, done->metrics, done->files);
   if (!choice.exact && done->attempts > done->synthetic)
     std::puts(
-        "Numbers of people's attempts have two significant digits, and their recordings stay: --study with --key "
-        "writes them as they are.");
+        "Numbers of people's attempts are rounded to two significant digits, and their recordings are left out: "
+        "--study with --key writes both in full.");
   return kDone;
 }
 

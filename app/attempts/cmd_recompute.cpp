@@ -105,7 +105,7 @@ int run_recompute(const Arguments& arguments) {
     std::fputs(json_of_recompute(sum).c_str(), stdout);
   } else {
     std::printf(
-        "%zu attempts, %zu stored values compared: %zu differ, %zu not bit for bit the same; %zu added, and %zu "
+        "%zu attempts, %zu stored values compared: %zu differ, %zu not identical bit for bit; %zu added, and %zu "
         "steps\n",
         sum.attempts, sum.values, sum.differences.size(), sum.not_bit_identical, sum.added, sum.steps_added);
     for (const Recomputed::Difference& one : sum.differences)

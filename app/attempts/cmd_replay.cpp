@@ -20,7 +20,7 @@ struct Verdict {
 
 Verdict verdict_of(const casedb::AttemptRow& attempt, const session::Replay& replayed) {
   if (attempt.step_version != engine::kStepVersion)
-    return {std::nullopt, std::nullopt, "recorded by another step version"};
+    return {std::nullopt, std::nullopt, "recorded by another version of the step"};
   if (replayed.same) return {true, std::nullopt, ""};
   return {false, replayed.first_difference_tick, "the replayed state differs"};
 }

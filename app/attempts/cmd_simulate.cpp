@@ -110,7 +110,7 @@ int resume(const Arguments& arguments) {
   if (!interrupted) return refuse(interrupted.error());
   const casedb::OpenAttempt& attempt = interrupted->attempt();
   if (!attempt.synthetic())
-    return refuse({"not_simulated", "a person made this attempt: they can go on with it in `seldinger train`"});
+    return refuse({"not_simulated", "a person made this attempt: they can continue it in `seldinger train`"});
   auto profile = assessment::named_profile(attempt.operator_name);
   if (arguments.has("--operator")) {
     const auto given = profile_of(arguments.text("--operator"));
@@ -188,7 +188,7 @@ int run_simulate(const Arguments& arguments) {
   } else {
     for (const session::SimulatedTrial& trial : trials) {
       auto attempt = simulation->live_attempt(trial.profile, trial.seed, [](const std::string& id) {
-        std::fprintf(stderr, "attempt %s is recorded; should this program die, simulate --resume goes on with it\n",
+        std::fprintf(stderr, "attempt %s is being recorded; if this program dies, simulate --resume continues it\n",
                      id.c_str());
       });
       if (!attempt) return refuse(attempt.error());
@@ -205,7 +205,7 @@ int run_simulate(const Arguments& arguments) {
   } else {
     print_sum(attempts);
     if (!people_there->there.empty())
-      std::printf("%zu attempts of these people were there already\n", people_there->there.size());
+      std::printf("%zu attempts of these people already existed\n", people_there->there.size());
   }
   return kDone;
 }

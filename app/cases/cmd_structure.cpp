@@ -39,7 +39,7 @@ void read_drawn(const Arguments& arguments, casedb::StructureRow& row) {
 volume::TissueClass tissue_of(const Arguments& arguments, const char* option) {
   const std::string name = arguments.required(option);
   const auto tissue = volume::tissue_of_name(name);
-  if (!tissue) throw UsageError(std::string(option) + " is a tissue class: liver, vessel, bone, …");
+  if (!tissue) throw UsageError(std::string(option) + " must be a tissue class: liver, vessel, bone, …");
   return *tissue;
 }
 
@@ -100,7 +100,7 @@ int run_case_structure(const Arguments& arguments) {
       return refuse(found.error());
     if (!arguments.has("--tissue")) {
       const auto tissue = volume::tissue_of_name(label_name);
-      if (!tissue) throw UsageError("--tissue says what the label's tissue is: its name is not known");
+      if (!tissue) throw UsageError("--tissue is needed: the label's name is not known, so give its tissue");
       row.tissue = *tissue;
     }
   }

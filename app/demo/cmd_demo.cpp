@@ -98,7 +98,7 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
         if (metric.id == first.id) print_value(metric);
     std::printf("  %s\n", first.unit.c_str());
   }
-  std::printf("\nEach attempt is the one in the middle of %zu with other seeds (here", kSeeds.size());
+  std::printf("\nEach attempt is the middle one of %zu with different seeds (here", kSeeds.size());
   for (const session::SimulatedAttempt& attempt : answer.attempts)
     std::printf("%s %s %llu", &attempt == &answer.attempts.front() ? "" : ",", attempt.operator_name.c_str(),
                 static_cast<unsigned long long>(attempt.seed));
@@ -119,7 +119,7 @@ int run_demo(const Arguments& arguments) {
     return run_demo_programme(arguments);
   }
   if (arguments.has("--cases") || arguments.has("--drills")) return run_demo_cases(arguments);
-  if (arguments.all("--ct").size() > 1) throw UsageError("more than one --ct goes with --cases only");
+  if (arguments.all("--ct").size() > 1) throw UsageError("more than one --ct needs --cases");
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
   const ServeAt at{"127.0.0.1", port, !arguments.has("--port")};
   const bool json = arguments.has("--json"), serving = !arguments.has("--no-serve");

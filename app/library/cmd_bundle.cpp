@@ -86,9 +86,9 @@ int run_bundle_import(const Arguments& arguments) {
   for (const std::string& case_id : cases->stored) std::printf("case %s stored\n", case_id.c_str());
   for (const std::string& case_id : cases->for_review)
     std::printf("case %s was published by its sender: it is in review here\n", case_id.c_str());
-  if (cases->healed > 0) std::printf("%zu damaged files of cases here are whole again\n", cases->healed);
+  if (cases->healed > 0) std::printf("%zu damaged files of cases here are repaired\n", cases->healed);
   for (const std::string& case_id : cases->present)
-    std::printf("case %s is here already; nothing was done\n", case_id.c_str());
+    std::printf("case %s is already here; nothing was done\n", case_id.c_str());
   return kDone;
 }
 
@@ -105,7 +105,7 @@ int run_bundle_trust(const Arguments& arguments) {
   const std::string& what = arguments.positional(0);
   const bool list = what == "list", add = what == "add";
   if (!list && !add && what != "remove") throw UsageError("bundle trust add KEY --label NAME, list, or remove KEY");
-  if (arguments.positionals() != (list ? 1U : 2U)) throw UsageError(list ? "list takes no key" : "which key?");
+  if (arguments.positionals() != (list ? 1U : 2U)) throw UsageError(list ? "list takes no KEY" : "KEY is missing");
   const std::string label = add ? arguments.required("--label") : "";
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());

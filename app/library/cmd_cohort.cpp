@@ -34,7 +34,7 @@ int run_cohort_list(const Arguments& arguments) {
     std::fputs(json_of_cohorts(cohorts).c_str(), stdout);
     return kDone;
   }
-  if (cohorts.empty()) std::puts("There is no cohort yet; `seldinger cohort add` makes one.");
+  if (cohorts.empty()) std::puts("There are no cohorts yet; `seldinger cohort add` makes one.");
   for (const casedb::Cohort& one : cohorts)
     std::printf("%s  %-24s %-16s %d learner%s\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
                 casedb::cells_of(one).learners, casedb::cells_of(one).learners == 1 ? "" : "s");

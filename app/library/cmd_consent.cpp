@@ -39,7 +39,7 @@ int run_consent_list(const Arguments& arguments) {
     std::fputs(json_of_consents(consents).c_str(), stdout);
     return kDone;
   }
-  if (consents.empty()) std::puts("Nothing asks for consent; `seldinger consent text` adds a text.");
+  if (consents.empty()) std::puts("Nobody is asked for consent yet; `seldinger consent text` adds a text.");
   for (const casedb::Consent& one : consents)
     std::printf("%s  version %d  %-12s %s\n", one.text_id.c_str(), one.version,
                 one.stands()    ? "given"
@@ -74,7 +74,7 @@ int run_user_fact(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto person = casedb::open_account(*library, arguments.positional(0));
   if (!person) return refuse(person.error());
-  if (arguments.positionals() == 2) throw UsageError("a fact and its answer, or neither");
+  if (arguments.positionals() == 2) throw UsageError("give both a fact and its answer, or neither");
   if (arguments.positionals() == 3) {
     if (const auto by = acting_on(*library, arguments, casedb::Action::answer_consent, person->person_id); !by)
       return refuse(by.error());

@@ -73,7 +73,7 @@ int run_curriculum_list(const Arguments& arguments) {
     std::fputs(json_of_curricula(curricula).c_str(), stdout);
     return kDone;
   }
-  if (curricula.empty()) std::puts("There is no curriculum yet; `seldinger curriculum add` makes one.");
+  if (curricula.empty()) std::puts("There are no curricula yet; `seldinger curriculum add` makes one.");
   for (const casedb::Curriculum& one : curricula)
     std::printf("%s  %-10s %zu items  %s\n", one.curriculum_id.c_str(), casedb::name_of(one.state).c_str(),
                 one.items.size(), one.title.c_str());
@@ -102,7 +102,7 @@ int run_curriculum_show(const Arguments& arguments) {
     const casedb::ItemState& item = items[i];
     std::string line = std::to_string(i + 1) + ". " + item.title;
     if (item.case_id.empty())
-      line += ", no version is published now";
+      line += ", no version is published";
     else
       line += ", version " + std::to_string(item.version);
     if (const std::string gates = reports::gates_text(curriculum->items[i].gates); !gates.empty())

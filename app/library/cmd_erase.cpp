@@ -17,8 +17,8 @@ int told(const Arguments& arguments, const base::Result<casedb::Erased>& erased)
     return kDone;
   }
   std::printf(
-      "erased: %zu attempts, %zu files, %zu copies of older schemas. Backups and exports made before still hold "
-      "what was erased.\n",
+      "erased: %zu attempts, %zu files, %zu copies of older schemas. Earlier backups and exports still hold what "
+      "was erased.\n",
       erased->attempts, erased->assets, erased->old_copies);
   return kDone;
 }

@@ -101,7 +101,8 @@ int run_check(const Arguments& arguments) {
     }
   if (noted)
     if (auto library = casedb::Library::open(folder); library && !casedb::still_stands(*library, *noted))
-      report->findings.push_back({"audit_cut", "the audit log does not hold the row that was noted as its last"});
+      report->findings.push_back(
+          {"audit_cut", "the audit log does not hold the row that was recorded as its last"});
   if (arguments.has("--json")) {
     std::fputs(json_of_check(*report).c_str(), stdout);
   } else {

@@ -79,7 +79,7 @@ int run_user_passwd(const Arguments& arguments) {
 
 int run_user_level(const Arguments& arguments) {
   const auto level = level_of(arguments);
-  if (!level) throw UsageError("--level is needed");
+  if (!level) throw UsageError("--level is missing");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());

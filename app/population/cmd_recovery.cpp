@@ -248,13 +248,12 @@ int run_recovery(const Arguments& arguments) {
     return refuse(by.error());
   const KnownPeople known = known_people(*library);
   if (known.empty())
-    return refuse({"no_attempt", "there are no attempts of simulated novices, intermediates or experts here"});
+    return refuse({"no_attempt", "there are no attempts by simulated novices, intermediates or experts here"});
   const reports::CaseReport report = reports::case_report_of(*library, casedb::Learners::simulated, kVersion);
   const std::string others = std::to_string(asked.truth) + " others of the same group";
   RecoverySection difficulty{
       "How hard cases are",
-      "The share that passes at the first attempt, with the interval of the report of cases, "
-      "beside the share of " +
+      "The share that passes at the first attempt, with the interval from the case report, beside the share of " +
           others + ".",
       {}},
       cuts{"Cuts between novices and experts",

@@ -84,7 +84,8 @@ int run_study_simulate(const Arguments& arguments) {
   auto plan = study::plan_from_json(*text);
   if (!plan) return refuse(plan.error());
   if (auto problems = study::problems_of(*plan); !problems.empty())
-    return refuse({"bad_study_plan", "the plan asks for what is not measured today", std::move(problems)});
+    return refuse(
+        {"bad_study_plan", "the plan asks for something that is not measured today", std::move(problems)});
   plan->people = study::People::simulated;  // whatever it is planned for: these are
   const population::World world = world_of(arguments, *plan);
   const auto studies = static_cast<std::size_t>(arguments.whole("--studies", 1000, 1, 1'000'000));
@@ -95,7 +96,7 @@ int run_study_simulate(const Arguments& arguments) {
   for (const auto* outcomes : {&plan->primary, &plan->secondary})
     for (const study::Outcome& one : *outcomes)
       if (one.case_id != surrogate->mark().case_id)
-        return refuse({"other_surrogate", "the surrogate is of another case than the plan's outcomes"});
+        return refuse({"other_surrogate", "the surrogate is for another case than the plan's outcomes"});
   if (arguments.has("--out"))
     if (const auto written =
             write_study(arguments.text("--out"), population::simulated_study(*plan, world, *surrogate, seed, 1));

@@ -99,7 +99,7 @@ base::Result<population::Surrogate> fitted_from_files(const Arguments& arguments
     if (const std::string differs = difference(*mark, part->mark()); !differs.empty())
       return base::Error{"other_surrogate", "the attempts of " + shown(file) + " are of " + differs};
     if (!population::add_once(part->attempts(), points))
-      return base::Error{"other_surrogate", "one attempt is in two files, and differs: " + shown(file)};
+      return base::Error{"other_surrogate", "one attempt is in two files, with different values: " + shown(file)};
   }
   return population::Surrogate::fit(std::move(*mark), std::move(points));
 }
@@ -115,7 +115,7 @@ int run_surrogate_fit(const Arguments& arguments) {
   if (arguments.has("--json"))
     std::fputs(json_of_fit(*surrogate).c_str(), stdout);
   else
-    std::printf("fitted to %zu simulated attempts; `seldinger surrogate check` tells how well\n",
+    std::printf("fitted to %zu simulated attempts; `seldinger surrogate check` shows how well\n",
                 surrogate->attempts().size());
   return kDone;
 }

@@ -111,9 +111,8 @@ int run_surrogate_coverage(const Arguments& arguments) {
     return kDone;
   }
   std::printf(
-      "Simulated, nothing here is about people: %zu studies of %zu and %zu people a shift at `%s`, the truth of "
-      "%zu "
-      "in each group.\n\n",
+      "Simulated, nothing here is about people: %zu studies of %zu and %zu people a shift at `%s`, the true values "
+      "from %zu in each group.\n\n",
       options.studies, options.per_group, options.per_group, surrogate->mark().case_title.c_str(),
       options.truth_people);
   print_sum(doses, shifts);

@@ -88,7 +88,7 @@ int run_questionnaire_import(const Arguments& arguments) {
   if (arguments.has("--json")) {
     std::fputs(json_of_entry(stored, differences).c_str(), stdout);
   } else if (differences.empty()) {
-    std::printf("%zu paper forms, typed twice alike\n", stored);
+    std::printf("%zu paper forms, typed identically twice\n", stored);
   } else {
     std::printf("Nothing was stored: the two entries differ in %zu places.\n", differences.size());
     for (const EntryDifference& one : differences)
@@ -104,7 +104,7 @@ int run_questionnaire_export(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto round = round_to_read(*library, arguments);
   if (!round) return refuse(round.error());
-  if (round->rated) return refuse({"rated_round", "what raters said is exported by `rating export`"});
+  if (round->rated) return refuse({"rated_round", "`rating export` exports what raters said"});
   const auto responses = casedb::list_responses(*library, round->code);
   if (!responses) return refuse(responses.error());
   if (const auto noted = note_export(*library, responses->round, responses->sets.size()); !noted)

@@ -49,7 +49,7 @@ base::Result<std::vector<casedb::AttemptRow>> attempts_to_rate(casedb::Library& 
   rows.erase(std::unique(rows.begin(), rows.end(),
                          [](const auto& a, const auto& b) { return a.attempt_id == b.attempt_id; }),
              rows.end());
-  if (rows.empty()) return base::Error{"bad_design", "no attempt is to be rated"};
+  if (rows.empty()) return base::Error{"bad_design", "there is no attempt to rate"};
   return rows;
 }
 
@@ -59,7 +59,9 @@ base::Result<void> may_hand_out(casedb::Library& library, const Arguments& argum
   if (const auto by = acting_on(library, arguments, casedb::Action::see_attempt, row.person_id); !by)
     return by.error();
   if (study_id && row.person_id && !casedb::people_asked(library, *study_id).contains(*row.person_id))
-    return base::Error{"no_consent", "whose attempt it is does not consent to the study, or is not whom it is of"};
+    return base::Error{
+        "no_consent",
+        "the person who made it does not consent to the study, or the study is not about such people"};
   return {};
 }
 
@@ -141,7 +143,7 @@ int run_rating_open(const Arguments& arguments) {
   std::printf("%s: %zu to rate, %zu to calibrate\n", opened->round.code.c_str(), made.replays.size(),
               made.calibration.size());
   for (std::size_t i = 0; i < opened->keys.size(); ++i) std::printf("R%zu  %s\n", i + 1, opened->keys[i].c_str());
-  std::puts("Each rater types their key at /rate where `seldinger serve` runs. The keys are not told again.");
+  std::puts("Each rater types their key at /rate where `seldinger serve` runs. The keys are not shown again.");
   return kDone;
 }
 

@@ -24,7 +24,7 @@ int run_simulate_answers(const Arguments& arguments) {
   if (arguments.has("--json"))
     std::fputs(json_of_simulated(*made).c_str(), stdout);
   else
-    std::printf("SIMULATED: %zu sets of answers sent; %zu were there already\n", made->sent, made->there);
+    std::printf("SIMULATED: %zu sets of answers sent; %zu already existed\n", made->sent, made->there);
   return kDone;
 }
 

@@ -29,7 +29,7 @@ int run_study_list(const Arguments& arguments) {
     std::fputs(json_of_studies(studies).c_str(), stdout);
     return kDone;
   }
-  if (studies.empty()) std::puts("There is no study yet; `seldinger study new` makes one.");
+  if (studies.empty()) std::puts("There are no studies yet; `seldinger study new` makes one.");
   for (const casedb::Study& one : studies)
     std::printf("%s  %-32s %d consent\n", one.study_id.c_str(), one.title.c_str(), one.consenting);
   return kDone;

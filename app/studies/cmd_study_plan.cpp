@@ -107,7 +107,7 @@ Enrolled enrol_all(casedb::Library& library, const casedb::StoredPlan& plan) {
 }
 
 int run_study_enrol(const Arguments& arguments) {
-  if (arguments.has("--user") == arguments.has("--all")) throw UsageError("--user or --all, one of the two");
+  if (arguments.has("--user") == arguments.has("--all")) throw UsageError("give either --user or --all");
   auto open = open_study(arguments, "STUDY", Action::enrol_in_study);
   if (!open) return refuse(open.error());
   const auto plan = casedb::find_plan(open->library, open->study.study_id);
@@ -115,9 +115,10 @@ int run_study_enrol(const Arguments& arguments) {
   Enrolled enrolled;
   if (arguments.has("--all")) {
     if (plan->plan.randomised)
-      throw UsageError("who is sent to an arm is enrolled one by one, as they come: --user");
+      throw UsageError("people assigned to an arm are enrolled one by one, as they come: --user");
     if (!plan->frozen())
-      return refuse({"plan_not_frozen", "people are enrolled when the plan is frozen (`seldinger study freeze`)"});
+      return refuse(
+          {"plan_not_frozen", "people can be enrolled once the plan is frozen (`seldinger study freeze`)"});
     enrolled = enrol_all(open->library, *plan);
   } else {
     const auto person = casedb::open_account(open->library, arguments.text("--user"));
@@ -149,7 +150,7 @@ void print_outcomes(const std::vector<assessment::study::Compared>& outcomes, do
       std::printf("  p (Holm) %s. %s\n", reports::p_text(one.p_adjusted).c_str(),
                   reports::verdict_text(one, alpha).c_str());
     else
-      std::puts("  exploratory: it bears no p and no conclusion");
+      std::puts("  exploratory: no p value and no conclusion");
   }
 }
 
@@ -163,8 +164,9 @@ int run_study_look(const Arguments& arguments) {
     if (arguments.has("--json"))
       std::fputs(json_of_blinded(*plan, counts).c_str(), stdout);
     else
-      std::printf("The plan is a draft, so nothing is told by group: %zu consent, %zu of them made %zu attempts.\n",
-                  counts.consenting, counts.with_attempts, counts.attempts);
+      std::printf(
+          "The plan is a draft, so nothing is shown by group: %zu consent, %zu of them made %zu attempts.\n",
+          counts.consenting, counts.with_attempts, counts.attempts);
     return kDone;
   }
   casedb::StudyData data = casedb::study_data(open->library, *plan);
@@ -180,7 +182,7 @@ int run_study_look(const Arguments& arguments) {
   if (!result.stopped) std::printf("An interim look: the plan stops at %d in each group.\n", plan->plan.per_group);
   print_outcomes(result.primary, plan->plan.alpha, true);
   print_outcomes(result.secondary, plan->plan.alpha, false);
-  std::puts("\nThis look is noted, and every report of the study prints it.");
+  std::puts("\nThis look is recorded, and every report of the study prints it.");
   return kDone;
 }
 

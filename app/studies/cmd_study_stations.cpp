@@ -32,7 +32,8 @@ int run_study_stations(const Arguments& arguments) {
   const std::set<std::string> different(stations.begin(), stations.end());
   if (stations.size() < 2 || static_cast<long long>(stations.size()) > kMostStations ||
       different.size() != stations.size() || different.contains(""))
-    throw UsageError("--station is given two to " + std::to_string(kMostStations) + " times, each another name");
+    throw UsageError("give --station two to " + std::to_string(kMostStations) +
+                     " times, each with a different name");
   const auto people = static_cast<std::size_t>(arguments.whole("--people", 0, 1, kMostPeople));
   if (people == 0) throw UsageError("--people is missing");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, kMostSeed));
