@@ -24,10 +24,9 @@ base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
   if (device != "mouse" && device != "haply" && device != "virtual")
     throw UsageError("--device is mouse, haply or virtual");
   for (const char* option : {"--device-host", "--device-port"})
-    if (device != "haply" && arguments.has(option))
-      throw UsageError(std::string(option) + " is for --device haply");
+    if (device != "haply" && arguments.has(option)) throw UsageError(std::string(option) + " needs --device haply");
   if (device == "mouse") {
-    if (arguments.has("--station")) throw UsageError("--station is for --device haply or virtual");
+    if (arguments.has("--station")) throw UsageError("--station needs --device haply or virtual");
     return std::optional<Arms>();
   }
   Arms arms;
