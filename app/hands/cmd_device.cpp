@@ -109,7 +109,7 @@ int run_device_probe(const Arguments& arguments) {
   const devices::HaplyStatus status = haply.status();
   for (std::size_t side = 0; side < 2; ++side) answer.arms[side].ids = status.ids[side];
   if (answer.arms[0].readings + answer.arms[1].readings == 0)
-    return refuse({"no_device", "the service answers, and no arm with a grip does", {}});
+    return refuse({"no_device", "the service answers, but no arm with a grip does", {}});
   std::fputs((arguments.has("--json") ? json_of_device_probe(answer) : text_of_device_probe(answer)).c_str(),
              stdout);
   return kDone;

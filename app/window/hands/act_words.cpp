@@ -133,7 +133,7 @@ std::string guide_words(const Seen& seen, cases::Modality modality) {
   if (modality == cases::Modality::xray) return "No needle guide here: it is mounted on an ultrasound probe.";
   if (!seen.needle_by_mouse) return "No needle guide: an arm holds the needle and moves it freely.";
   if (seen.in_guide) return "The needle is in its guide: its path lies between the dotted lines in the picture.";
-  if (seen.guided) return "Needle guide on: the needle is in it; G removes the guide.";
+  if (seen.guided) return "Needle guide on: the needle moves to it; G puts it aside.";
   if (seen.inserted) return "The needle is free. It is in tissue: withdraw it before G brings it to its guide.";
   return "Needle guide off: the needle is free.";
 }

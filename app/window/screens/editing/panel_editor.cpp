@@ -153,7 +153,7 @@ void EditorPanel::draw_rehearsal(CaseEditor& editor) {
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("simulated operators try it as it is; graded, not kept. It needs a lesion and a rule");
-  if (now.error) ImGui::TextWrapped("The trial failed: %s", now.error->text.c_str());
+  if (now.error) ImGui::TextWrapped("Could not run the trial: %s", now.error->text.c_str());
   if (!now.found) return;
   const RehearsalWords words = words_of(*now.found);
   const bool met = now.found->passed() > 0;
