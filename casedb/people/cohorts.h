@@ -38,7 +38,7 @@ struct CohortCells {
   int learners = 0;  // now; people
   int attempts = 0;
   int with_hit = 0, hits = 0;
-  int simulated = 0;  // learners now who are none; of whoever they are
+  int simulated = 0;  // learners now, who are nobody
   constexpr bool operator==(const CohortCells&) const noexcept = default;
 };
 

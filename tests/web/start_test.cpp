@@ -65,7 +65,8 @@ TEST(Start, WhoIsSimulatedIsCountedApart) {
   FakeSite fake;
   fake.questions.records[kOther] = fake.questions.records["one-drawn"] = {record_of(5, 0)};
   fake.questions.simulated.insert("one-drawn");
-  fake.questions.cohorts = {{"c1", "Autumn", "", "", {{kOther, true, 5, 5, 0}, {"one-drawn", true, 0, 0, 0, true}}}};
+  fake.questions.cohorts = {
+      {"c1", "Autumn", "", "", {{kOther, true, 5, 5, 0}, {"one-drawn", true, 0, 0, 0, true}}}};
   fake.questions.cohort_relations["person-of-mentor"]["c1"].own_cohort = true;
   fake.questions.relations["person-of-mentor"]["one-drawn"].own_cohort = true;
   FakeBrowser mentor(*fake.site);
