@@ -289,7 +289,7 @@ std::string help_text() {
          "  seldinger --version\n\n" +
          wrapped("", 0,
                  "Name a case, lesion, attempt, study, cohort or curriculum by its id, its title, or a unique "
-                 "beginning of four letters or more.");
+                 "beginning.");
 }
 
 std::string commands_markdown() {
@@ -302,7 +302,7 @@ std::string commands_markdown() {
       "`--` ends the options: nothing after it is an option, even if it begins with dashes.\n\n"
       "Without `--library`, the library is the one that the environment variable `SELDINGER_LIBRARY` names, else "
       "the demo's (`seldinger/demo` under the user's data folder). CASE, LESION, ATTEMPT, STUDY, COHORT and "
-      "CURRICULUM may be an id, a title, or a unique beginning of four letters or more. With `--json` an error is "
+      "CURRICULUM may be an id, a title, or a unique beginning. With `--json` an error is "
       "also "
       "printed to standard "
       "output, as `{\"error\": {\"code\", \"text\"}}` ([codes](errors.md)).\n";

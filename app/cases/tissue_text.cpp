@@ -68,7 +68,7 @@ std::string organs_text(const volume::Organs& organs) {
   }
   return "organs   " + (named.empty() ? std::string("none is certain enough to be named") : named) + "\n" +
          (not_named.empty() ? std::string() : "not found, or too uncertain to name: " + not_named + "\n") +
-         "not looked for: heart, gallbladder, stomach, bowel, pancreas and anything else not listed\n";
+         "not looked for: heart, stomach, bowel, pancreas and anything else not listed\n";
 }
 
 }  // namespace seldinger::app
