@@ -98,15 +98,15 @@ int run_doctor(const Arguments& arguments) {
     add("gl", context.version());
     add("gl_renderer", context.renderer() + (context.software() ? " (software)" : ""));
   } catch (const base::Failure& failure) {
-    add("gl", std::string("none: ") + failure.what() + "; pictures are made by the CPU");
+    add("gl", std::string("none: ") + failure.what() + "; the CPU makes the pictures");
   }
   machine.display = display_opens();
   add("display", machine.display ? "opens" : "none");
   add("devices", "virtual");
   add("real_time", realtime_rights());
   add("readers", casedb::jail_filters_calls() ? "jailed, system calls filtered"
-                                              : "jailed by limits only: the kernel filters no system calls");
-  add("films", is_in_path("ffmpeg") ? "by ffmpeg" : "none: ffmpeg is not here");
+                                              : "jailed by limits only: the kernel does not filter system calls");
+  add("films", is_in_path("ffmpeg") ? "by ffmpeg" : "none: ffmpeg is not installed");
   const auto looked = look_at_library(arguments, doctor, machine);
   doctor.fitness = fitness_of(machine);
   const bool json = arguments.has("--json");
@@ -126,8 +126,8 @@ Command doctor_command() {
   return {.name = "doctor",
           .options = kLibraryJson,
           .summary =
-              "Tells what this machine can do (GL, display, devices, real-time rights, disk, schema), and whether "
-              "somebody can train at it: yes, slowly or no, and why; 1 when not.",
+              "Reports what this machine can do (GL, display, devices, real-time rights, disk, schema), and "
+              "whether somebody can train on it: yes, slowly or no, and why; 1 when not.",
           .run = &run_doctor};
 }
 

@@ -78,11 +78,11 @@ constexpr Option kHelpOptions[] = {
     {"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
     {"--differences", nullptr, "print the smallest worthwhile differences (docs/differences.md)"},
     {"--steps", nullptr, "print the table of a puncture's steps (docs/steps.md)"},
-    {"--operators", nullptr, "print what simulated operators are and can (docs/operators.md)"},
+    {"--operators", nullptr, "print what simulated operators are and can do (docs/operators.md)"},
     {"--statistics", nullptr, "print the statistical tests, their columns and options (docs/statistics.md)"},
     {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
     {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
-    {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"},
+    {"--attributes", nullptr, "print what a case takes over from its source (docs/attributes.md)"},
     {"--errors", nullptr, "print the table of error codes (docs/errors.md)"}};
 
 }  // namespace
@@ -92,7 +92,7 @@ Command help_command() {
           .positionals = "[COMMAND]",
           .max_positionals = 2,
           .options = kHelpOptions,
-          .summary = "Prints this, or one command's options.",
+          .summary = "Prints this text, or one command's options.",
           .run = &run_help};
 }
 

@@ -39,17 +39,18 @@ namespace {
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b", kBenchStageHelp.data()},
     {"--quick", nullptr, "fewer repetitions"},
-    {"--ct", "SOURCE", "what import reads, and a patient for xray, ultrasound and room; default the built-in case"},
+    {"--ct", "SOURCE",
+     "the CT for import, and the patient for xray, ultrasound and room; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
     {"--out", "DIR", "where results.csv goes"}};
 
 constexpr Option kGoalsOptions[] = {
-    {"--method", "scatterers|lattice|thesis|all", "how speckle comes about; default scatterers"},
+    {"--method", "scatterers|lattice|thesis|all", "how speckle is made; default scatterers"},
     {"--probe", "NAME", "C5-2v, L11-5v, thesis-linear or thesis-curved; default all"},
     {"--quality", "fast|reference",
      "reference: 512 beams, 2048 samples, three times the scatterers, against the narrower tolerances; default "
      "fast"},
-    {"--quick", nullptr, "fewer frames, so more chance in the figures"},
+    {"--quick", nullptr, "fewer frames, so noisier figures"},
     kJson};
 
 }  // namespace
@@ -57,7 +58,7 @@ constexpr Option kGoalsOptions[] = {
 Command bench_command() {
   return {.name = "bench",
           .options = kBenchOptions,
-          .summary = "Measures time against error of every stage with a choice.",
+          .summary = "Measures time and error for every stage that offers a choice.",
           .run = &run_measure};
 }
 
@@ -65,24 +66,25 @@ Command goals_ultrasound_command() {
   return {
       .name = "goals ultrasound",
       .options = kGoalsOptions,
-      .summary = "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",
+      .summary =
+          "Compares the ultrasound picture with closed-form solutions, goal by goal; 1 when scatterers miss one.",
       .run = &run_measure};
 }
 
 Command goals_haptics_command() {
-  return {.name = "goals haptics",
-          .options = kJsonOnly,
-          .summary =
-              "Measures what the hand feels against published lines and under simulated hands; 1 when a goal is "
-              "missed.",
-          .run = &run_measure};
+  return {
+      .name = "goals haptics",
+      .options = kJsonOnly,
+      .summary =
+          "Compares what the hand feels with published lines and with simulated hands; 1 when a goal is missed.",
+      .run = &run_measure};
 }
 
 Command haptics_stability_command() {
   return {.name = "haptics stability",
           .options = kJsonOnly,
           .summary =
-              "Measures under simulated hands and devices whether forces come to rest; 1 when they do not "
+              "Measures with simulated hands and devices whether forces settle; 1 when they do not "
               "(docs/stability.md).",
           .run = &run_measure};
 }

@@ -258,7 +258,7 @@ std::string help_text_of_noun(std::string_view noun) {
   }
   if (lines.empty()) return lines;
   return lines + "\n`seldinger help " + std::string(noun) +
-         " …` tells the options of one of them, with examples.\n";
+         " …` shows the options of one of them, with examples.\n";
 }
 
 std::string help_text() {
@@ -288,8 +288,8 @@ std::string help_text() {
          "  seldinger help case lesion         one command, its options and examples\n"
          "  seldinger --version\n\n" +
          wrapped("", 0,
-                 "A case, lesion, attempt, study, cohort or curriculum is called by its id, its title, or a "
-                 "beginning that no other has.");
+                 "Name a case, lesion, attempt, study, cohort or curriculum by its id, its title, or a unique "
+                 "beginning.");
 }
 
 std::string commands_markdown() {
@@ -297,14 +297,13 @@ std::string commands_markdown() {
       "# Commands\n\nMade from the table in `app/commands.cpp` by `seldinger help --commands`; a test compares, "
       "and "
       "another types every example (`tests/e2e/examples_test.cpp`).\n"
-      "Lengths in mm, coordinates in LPS. Exit codes: 0 done · 1 ran and its check did not hold · 2 usage · "
+      "Lengths in mm, coordinates in LPS. Exit codes: 0 done · 1 ran, but its check failed · 2 usage · "
       "3 the input is refused, nothing is changed · 4 the environment fails (disk, database, GL).\n"
-      "`--` ends the options: what follows is no option, though it begins with dashes.\n\n"
-      "Where `--library` is left out, the library is what the environment's `SELDINGER_LIBRARY` says, else the "
-      "demo's "
-      "(`seldinger/demo` under the user's data folder). CASE, LESION, ATTEMPT, STUDY, COHORT and CURRICULUM may be "
-      "an "
-      "id, a title, or a beginning that no other has. With `--json` an error is also "
+      "`--` ends the options: nothing after it is an option, even if it begins with dashes.\n\n"
+      "Without `--library`, the library is the one that the environment variable `SELDINGER_LIBRARY` names, else "
+      "the demo's (`seldinger/demo` under the user's data folder). CASE, LESION, ATTEMPT, STUDY, COHORT and "
+      "CURRICULUM may be an id, a title, or a unique beginning. With `--json` an error is "
+      "also "
       "printed to standard "
       "output, as `{\"error\": {\"code\", \"text\"}}` ([codes](errors.md)).\n";
   for (const Command& command : commands()) {

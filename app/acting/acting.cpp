@@ -59,7 +59,8 @@ base::Result<std::optional<Account>> by_session(casedb::Library& library, const 
   }
   const bool fits = account && (!arguments.has("--by") || (named && named->person_id == account->person_id));
   if (told && !fits)
-    return base::Error{"no_session", "the session is over, or another person's; log in with `seldinger login`"};
+    return base::Error{"no_session",
+                       "the session has ended, or belongs to somebody else; log in with `seldinger login`"};
   return fits ? account : std::nullopt;
 }
 

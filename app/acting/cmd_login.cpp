@@ -50,7 +50,7 @@ int run_logout(const Arguments& arguments) {
   const bool ended = casedb::end_login_session(*library, **token);
   casedb::wipe(**token);
   ::unlink(file.c_str());
-  std::puts(ended ? "logged out" : "the session was over");
+  std::puts(ended ? "logged out" : "the session had already ended");
   return kDone;
 }
 
@@ -75,7 +75,7 @@ Command login_command() {
 }
 
 Command logout_command() {
-  return {.name = "logout", .options = kLogoutOptions, .summary = "Ends it.", .run = &run_logout};
+  return {.name = "logout", .options = kLogoutOptions, .summary = "Ends that session.", .run = &run_logout};
 }
 
 }  // namespace seldinger::app

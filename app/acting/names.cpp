@@ -140,7 +140,7 @@ std::vector<Called> seen_of(casedb::Library& library, const Looking& looking, st
 
 base::Error ambiguous(const std::vector<std::string>& ids) {
   constexpr std::size_t kMostShown = 5;
-  std::string text = std::to_string(ids.size()) + " are called so or begin so:";
+  std::string text = std::to_string(ids.size()) + " have this name or begin with it:";
   for (std::size_t i = 0; i < std::min(ids.size(), kMostShown); ++i) text += (i == 0 ? " " : ", ") + ids[i];
   if (ids.size() > kMostShown) text += ", …";
   return {"ambiguous", text};

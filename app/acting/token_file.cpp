@@ -38,7 +38,7 @@ fs::path token_file_of(const fs::path& library) {
 }
 
 void write_token(const fs::path& file, const std::string& token) {
-  const base::Failure failed("disk", "the file of the session cannot be written");
+  const base::Failure failed("disk", "the session file cannot be written");
   std::error_code none;
   if (file.has_parent_path()) {
     fs::create_directories(file.parent_path().parent_path(), none);
@@ -64,7 +64,7 @@ void write_token(const fs::path& file, const std::string& token) {
 }
 
 base::Result<std::optional<std::string>> read_token(const fs::path& file) {
-  const base::Error bad{"bad_token_file", "the file of the session is not one, or not its owner's alone"};
+  const base::Error bad{"bad_token_file", "the session file is not one, or is not its owner's alone"};
   const Descriptor in{::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
   if (in.number < 0) {
     if (errno == ENOENT || errno == ENOTDIR || errno == EACCES) return std::optional<std::string>();

@@ -32,7 +32,7 @@ std::string outcome_text(assessment::Verdict verdict, const std::vector<assessme
 std::string maker_text(const casedb::AttemptHead& attempt, const std::string& name) {
   if (attempt.synthetic())
     return reports::simulated_operator_text(attempt.operator_name) + ", seed " + std::to_string(attempt.seed);
-  return name.empty() ? "somebody erased" : name;
+  return name.empty() ? "erased person" : name;
 }
 
 }  // namespace seldinger::app

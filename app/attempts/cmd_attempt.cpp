@@ -50,7 +50,7 @@ int run_attempt_list(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto left_behind = session::close_interrupted_attempts(*library);
   if (!left_behind.empty())
-    std::fprintf(stderr, "%zu attempt%s that a program left behind when it died %s kept as interrupted\n",
+    std::fprintf(stderr, "%zu attempt%s left behind when a program died %s kept as interrupted\n",
                  left_behind.size(), left_behind.size() == 1 ? "" : "s", left_behind.size() == 1 ? "is" : "are");
   const auto attempts = casedb::list_attempts(*library);
   casedb::Grader grader(*library);
@@ -60,7 +60,7 @@ int run_attempt_list(const Arguments& arguments) {
     std::fputs(json_of_attempts(attempts, grades, casedb::list_open_attempts(*library)).c_str(), stdout);
     return kDone;
   }
-  if (attempts.empty()) std::puts("There is no attempt yet; `seldinger simulate` makes some.");
+  if (attempts.empty()) std::puts("There are no attempts yet; `seldinger simulate` makes some.");
   std::map<std::string, std::string> names;
   for (const casedb::Account& one : casedb::list_users(*library)) names[one.person_id] = one.login_name;
   for (std::size_t i = 0; i < attempts.size(); ++i) {
@@ -99,7 +99,7 @@ int run_attempt_show(const Arguments& arguments) {
     std::printf("         %s\n", away.c_str());
   std::fputs(text_of_grade(grade).c_str(), stdout);
   print_metrics(attempt->metrics);
-  std::puts("  (what each of them measures: seldinger help --metrics)");
+  std::puts("  (what each one measures: seldinger help --metrics)");
   print_course(course);
   if (const auto servo = casedb::find_servo_record(*library, attempt->attempt_id))
     std::printf("how the servo kept time\n%s", text_of_servo_record(*servo).c_str());

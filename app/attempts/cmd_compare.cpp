@@ -17,7 +17,7 @@ void print_comparison(const casedb::Comparison& comparison) {
   std::printf("%s, %s\n%s\n", comparison.row.title.c_str(), casedb::name_of(comparison.manner.modality).c_str(),
               reports::experts_text(comparison.experts).c_str());
   if (comparison.dependability)
-    std::printf("What passing tells of people: %s\n",
+    std::printf("What passing says about people: %s\n",
                 reports::dependability_text(*comparison.dependability, casedb::Learners::people).c_str());
   for (const casedb::ComparedGroup& group : comparison.groups) {
     std::printf("\n%s: passed %zu of %zu, with a critical error %zu\n", reports::group_label(group).c_str(),
@@ -63,19 +63,19 @@ int run_attempt_compare(const Arguments& arguments) {
 constexpr Option kCompareOptions[] = {
     kLibrary,
     {"--case", "CASE", "the case"},
-    {"--lesion", "LESION", "of attempts at this target; default that of the newest attempt"},
-    {"--modality", "mpr|xray|ultrasound", "of attempts with it; default that of the newest attempt"},
-    {"--out", "FILE.html", "a page of its own, in place of the text"},
+    {"--lesion", "LESION", "only attempts on this target; default that of the newest attempt"},
+    {"--modality", "mpr|xray|ultrasound", "only attempts with this modality; default that of the newest attempt"},
+    {"--out", "FILE.html", "write a page, instead of printing text"},
     kJson};
 
 }  // namespace
 
 Command attempt_compare_command() {
-  return {
-      .name = "attempt compare",
-      .options = kCompareOptions,
-      .summary = "Puts the attempts on a case side by side, a group for each person and each simulated operator.",
-      .run = &run_attempt_compare};
+  return {.name = "attempt compare",
+          .options = kCompareOptions,
+          .summary =
+              "Compares the attempts on a case side by side, a group for each person and each simulated operator.",
+          .run = &run_attempt_compare};
 }
 
 }  // namespace seldinger::app

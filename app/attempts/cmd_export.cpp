@@ -37,7 +37,7 @@ void choose_raw(const std::string& text, reports::RawChoice& choice) {
   if (text == "none") return;
   const std::pair<std::string_view, bool*> words[] = {
       {"poses", &choice.poses}, {"forces", &choice.forces}, {"frames", &choice.frames}, {"events", &choice.events}};
-  choose(text, words, "--raw takes none, or of poses, forces, frames and events");
+  choose(text, words, "--raw takes none, or any of poses, forces, frames and events");
 }
 
 void choose_formats(const std::string& text, reports::RawChoice& choice) {
@@ -45,7 +45,7 @@ void choose_formats(const std::string& text, reports::RawChoice& choice) {
                                                       {"slicer", &choice.slicer},
                                                       {"xapi", &choice.xapi},
                                                       {"motion-bids", &choice.motion_bids}};
-  choose(text, words, "--also takes of sqlite, slicer, xapi and motion-bids");
+  choose(text, words, "--also takes any of sqlite, slicer, xapi and motion-bids");
 }
 
 int run_export(const Arguments& arguments) {
@@ -73,7 +73,7 @@ int run_export(const Arguments& arguments) {
   const bool draft = choice.study_id && casedb::has_draft(*library, *choice.study_id);
   const auto& whose = library->actor().person_id;
   if (draft && whose && casedb::is_researcher_of(*library, *choice.study_id, *whose))
-    return refuse({"blinded", "until the plan is frozen nobody who works on the study gets outcomes by person"});
+    return refuse({"blinded", "until the plan is frozen nobody who works on the study may see outcomes by person"});
   const std::string key_file = arguments.text("--key");
   choice.exact = choice.study_id.has_value() && !key_file.empty();
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
@@ -107,23 +107,25 @@ int run_export(const Arguments& arguments) {
               done->synthetic, done->people, done->metrics, done->files);
   if (!choice.exact && done->attempts > done->synthetic)
     std::puts(
-        "Numbers of people's attempts have two significant digits, and their recordings stay: --study with --key "
-        "writes them as they are.");
+        "Numbers of people's attempts are rounded to two significant digits, and their recordings are left out: "
+        "--study with --key writes both in full.");
   return kDone;
 }
 
 constexpr Option kExportOptions[] = {
     kLibrary,
     {"--out", "DIR", "the new folder"},
-    {"--case", "CASE", "attempts at this case only; default: every attempt"},
-    {"--study", "STUDY", "of those who consent to it; default: of those who consent to research with this library"},
-    {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
+    {"--case", "CASE", "only attempts on this case; default: every attempt"},
+    {"--study", "STUDY",
+     "attempts of people who consent to it; default: of people who consent to research with this library"},
+    {"--raw", "poses,forces,frames,events|none", "which parts of the recordings; default all"},
     {"--also", "sqlite,slicer,xapi,motion-bids",
      "the same in other formats, into the same folder: one SQLite file, 3D Slicer's markups and transforms, xAPI "
      "statements, a Motion-BIDS data set"},
     {"--key", "FILE",
-     "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
-     "Keep it apart from what you pass on. With --study people's numbers are exact and their recordings are in it"},
+     "gives people, attempts and cases the same names as in other exports with this key; created if there is none. "
+     "Keep it apart from what you pass on. With --study people's numbers are exact and their recordings are "
+     "included"},
     kJson};
 
 }  // namespace
@@ -133,9 +135,8 @@ Command export_command() {
           .options = kExportOptions,
           .acts = true,
           .summary =
-              "Writes attempts of those who consent, and simulated ones, as CSV with a data dictionary into a new "
-              "folder: no "
-              "names, no dates (docs/export.md).",
+              "Writes the attempts of people who consent, and simulated ones, as CSV with a data dictionary into a "
+              "new folder: no names, no dates (docs/export.md).",
           .run = &run_export};
 }
 

@@ -105,7 +105,7 @@ int run_recompute(const Arguments& arguments) {
     std::fputs(json_of_recompute(sum).c_str(), stdout);
   } else {
     std::printf(
-        "%zu attempts, %zu stored values compared: %zu differ, %zu not bit for bit the same; %zu added, and %zu "
+        "%zu attempts, %zu stored values compared: %zu differ, %zu not identical bit for bit; %zu added, and %zu "
         "steps\n",
         sum.attempts, sum.values, sum.differences.size(), sum.not_bit_identical, sum.added, sum.steps_added);
     for (const Recomputed::Difference& one : sum.differences)
@@ -117,7 +117,7 @@ int run_recompute(const Arguments& arguments) {
 }
 
 constexpr Option kRecomputeOptions[] = {
-    kLibrary, {"--attempt", "ATTEMPT", "this one only; default: every attempt"}, kJson};
+    kLibrary, {"--attempt", "ATTEMPT", "only this one; default: every attempt"}, kJson};
 
 }  // namespace
 
@@ -125,8 +125,7 @@ Command recompute_command() {
   return {.name = "recompute",
           .options = kRecomputeOptions,
           .acts = true,
-          .summary =
-              "Scores stored attempts again: new versions of metrics are added, those that are there are compared.",
+          .summary = "Scores stored attempts again: adds new versions of metrics, compares existing ones.",
           .run = &run_recompute};
 }
 

@@ -20,7 +20,7 @@ struct Verdict {
 
 Verdict verdict_of(const casedb::AttemptRow& attempt, const session::Replay& replayed) {
   if (attempt.step_version != engine::kStepVersion)
-    return {std::nullopt, std::nullopt, "recorded by another step version"};
+    return {std::nullopt, std::nullopt, "recorded by another version of the step"};
   if (replayed.same) return {true, std::nullopt, ""};
   return {false, replayed.first_difference_tick, "the replayed state differs"};
 }
@@ -76,7 +76,7 @@ constexpr Option kReplayOptions[] = {
     {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"},
     {"--out", "FILE.html|FILE.mp4|DIR",
      "a sheet (pictures, path in the body, timeline, metrics), a film (needs ffmpeg), or a new folder of PNG "
-     "frames; compared while it is drawn, nothing is written where it differs"},
+     "frames; compared with the recording as it is drawn: if it differs, nothing is written"},
     {"--rate-hz", "R", "frames a second of the attempt, 1 to 60; default 10"},
     kJson};
 

@@ -84,7 +84,7 @@ base::Result<assessment::Scored> score_poses(const Arguments& arguments, std::ve
   const auto scene = read_scene(scene_path, notes);
   if (!scene) return error_of("--scene", scene_path, scene.error());
   if (scene->motion)
-    return base::Error{"bad_scene", "poses are scored in a patient who lies still: scene.motion", {}};
+    return base::Error{"bad_scene", "poses can only be scored in a patient who does not move: scene.motion", {}};
   const auto text = read_text_of(arguments, "--poses");
   if (!text) return text.error();
   auto recording = recording_from_csv(*text);

@@ -110,7 +110,7 @@ int resume(const Arguments& arguments) {
   if (!interrupted) return refuse(interrupted.error());
   const casedb::OpenAttempt& attempt = interrupted->attempt();
   if (!attempt.synthetic())
-    return refuse({"not_simulated", "a person made this attempt: they can go on with it in `seldinger train`"});
+    return refuse({"not_simulated", "a person made this attempt: they can continue it in `seldinger train`"});
   auto profile = assessment::named_profile(attempt.operator_name);
   if (arguments.has("--operator")) {
     const auto given = profile_of(arguments.text("--operator"));
@@ -188,7 +188,7 @@ int run_simulate(const Arguments& arguments) {
   } else {
     for (const session::SimulatedTrial& trial : trials) {
       auto attempt = simulation->live_attempt(trial.profile, trial.seed, [](const std::string& id) {
-        std::fprintf(stderr, "attempt %s is recorded; should this program die, simulate --resume goes on with it\n",
+        std::fprintf(stderr, "attempt %s is being recorded; if this program dies, simulate --resume continues it\n",
                      id.c_str());
       });
       if (!attempt) return refuse(attempt.error());
@@ -205,7 +205,7 @@ int run_simulate(const Arguments& arguments) {
   } else {
     print_sum(attempts);
     if (!people_there->there.empty())
-      std::printf("%zu attempts of these people were there already\n", people_there->there.size());
+      std::printf("%zu attempts of these people already existed\n", people_there->there.size());
   }
   return kDone;
 }
@@ -215,31 +215,30 @@ constexpr Option kSimulateOptions[] = {
     {"--case", "CASE", "the case"},
     {"--lesion", "LESION", "the target; default the case's first lesion"},
     {"--operator", "novice|intermediate|expert|learner|FILE.json",
-     "who (docs/operators.md); a learner is better with each attempt"},
+     "who (docs/operators.md); a learner improves with each attempt"},
     {"--seed", "N", "attempt i uses seed N + i"},
-    {"--count", "K", "how many attempts, of each person; default 1"},
+    {"--count", "K", "attempts per person; default 1"},
     {"--people", "P",
-     "of P different people, the same for the same seed: of novice, intermediate, expert and a group's file they "
-     "are "
-     "people of the library, and only what is not stored yet is made; default the profile itself"},
+     "by P different people, the same for the same seed: for novice, intermediate, expert and a group's file they "
+     "are people of the library, and only attempts not stored yet are made; default the profile itself"},
     {"--days", "D,D,…",
-     "sessions of these people, in days from now; each makes --count attempts in each; default 0"},
+     "when these people have their sessions, in days from now; each makes --count attempts in each; default 0"},
     {"--cohort", "COHORT", "enrol these people as its learners"},
     {"--shard", "I/N", "only every N-th of these people, from the I-th: N calls make them all, each once"},
     {"--jobs", "N", "threads; default one for each core. The results are the same"},
-    {"--details", nullptr, "grade, sentences and every metric of each, not a line alone"},
-    {"--no-pictures", nullptr, "store no picture of the moment of firing"},
+    {"--details", nullptr, "grade, sentences and every metric of each, not just one line"},
+    {"--no-pictures", nullptr, "do not store a picture of the moment of firing"},
     {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
-    {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
+    {"--modality", "mpr|xray|ultrasound", "default the case's; or another that it allows"},
     {"--event", "KIND@SECONDS",
      "what happens at that time: a mentor's cough, bleeding or pressure_drop, or stylet_out, stylet_in or inject "
-     "(2 ml of contrast) at an access needle's hub, or the first two of a core needle's introducer; may be given "
+     "(2 ml of contrast) at an access needle's hub, or the first two at a core needle's introducer; may be given "
      "many times",
      true},
-    {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
+    {"--real-time", nullptr, "at a person's pace: 1 kHz by the clock, stored while it runs; not under xray"},
     {"--resume", "ATTEMPT",
-     "go on with an interrupted attempt in real time: case, needle and seed are its own, and so is the operator, "
-     "unless --operator names the file it was made with; give its --event again"},
+     "continue an interrupted attempt in real time: it keeps its case, needle, seed and operator, unless "
+     "--operator names the file it was made with; give its --event again"},
     kJson};
 
 }  // namespace
@@ -248,7 +247,7 @@ Command simulate_command() {
   return {.name = "simulate",
           .options = kSimulateOptions,
           .acts = true,
-          .summary = "Lets a simulated operator make attempts, recorded and scored.",
+          .summary = "Has a simulated operator make attempts, which are recorded and scored.",
           .run = &run_simulate};
 }
 

@@ -21,7 +21,7 @@ int run_simulate_merge(const Arguments& arguments) {
   if (arguments.has("--json"))
     std::fputs(json_of_merged(*merged).c_str(), stdout);
   else
-    std::printf("%zu simulated people and %zu attempts of theirs added; %zu attempts were there already\n",
+    std::printf("%zu simulated people and %zu of their attempts added; %zu attempts already existed\n",
                 merged->people, merged->attempts, merged->there);
   return kDone;
 }

@@ -40,7 +40,7 @@ std::vector<double> session_days(const Arguments& arguments) {
     more = comma != rest.npos;
     const double day = parse_number(rest.substr(0, comma)).value_or(NAN);
     if (!(std::abs(day) <= 3650.0) || (!days.empty() && !(day > days.back())))
-      throw UsageError("--days is rising numbers of days, −3650 to 3650, with commas between: 0,7,28");
+      throw UsageError("--days is increasing numbers of days, −3650 to 3650, separated by commas: 0,7,28");
     days.push_back(day);
     rest = more ? rest.substr(comma + 1) : "";
   }
@@ -65,9 +65,9 @@ base::Result<std::optional<session::PeopleWish>> people_wish(const Arguments& ar
   }
   for (const char* option : {"--days", "--shard", "--cohort"})
     if (!wish && arguments.has(option))
-      throw UsageError(std::string(option) + " is for --people of novice, intermediate, expert or a group's file");
+      throw UsageError(std::string(option) + " needs --people with novice, intermediate, expert or a group's file");
   if (wish && arguments.has("--real-time"))
-    throw UsageError("--real-time is for an operator, not for simulated people");
+    throw UsageError("--real-time works with an operator, not with simulated people");
   return wish;
 }
 

@@ -14,11 +14,11 @@ std::string share_text(std::size_t part, std::size_t whole) {
 
 std::string found_text(const session::Rehearsal& rehearsal) {
   const std::size_t attempts = rehearsal.attempts(), passed = rehearsal.passed();
-  if (attempts == 0) return "Stopped before anybody had tried it.";
+  if (attempts == 0) return "Stopped before anybody tried it.";
   const std::string of = share_text(passed, attempts) + " passed.";
-  if (passed == 0) return "Nobody met it: " + of;
-  if (passed == attempts) return "It can be met, by everybody: " + of;
-  return "It can be met: " + of;
+  if (passed == 0) return "Nobody passed it: " + of;
+  if (passed == attempts) return "It can be passed, by everybody: " + of;
+  return "It can be passed: " + of;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ RehearsalWords words_of(const session::Rehearsal& rehearsal) {
         (one.of.of_the_time_limit ? "Time limit" : reports::metric_label(one.of.criterion.metric)) + ": " +
         assessment::limit_text(one.of.criterion, one.of.unit) + " – not met by " +
         share_text(one.missed, rehearsal.attempts()));
-  words.operators = "By the operators that come with this program (docs/operators.md), " +
+  words.operators = "Tried by the operators that come with this program (docs/operators.md), " +
                     std::to_string(rehearsal.people) + " different people of each level, seed " +
                     std::to_string(rehearsal.seed) + ", one attempt each; nothing is kept. " +
                     session::kRehearsalProves;

@@ -28,7 +28,7 @@ int run_case_list(const Arguments& arguments) {
     std::fputs(json_of_cases(cases).c_str(), stdout);
     return kDone;
   }
-  if (cases.empty()) std::puts("There is no case yet; `seldinger import` makes one.");
+  if (cases.empty()) std::puts("There are no cases yet; `seldinger import` makes one.");
   for (const casedb::CaseParts& one : cases)
     std::printf("%s  %-9s v%d  %zu lesion%s  %s\n", one.row.case_id.c_str(), casedb::name_of(one.row.state).c_str(),
                 one.row.version, one.lesions.size(), one.lesions.size() == 1 ? " " : "s", one.row.title.c_str());
@@ -108,7 +108,7 @@ int run_case_lesion(const Arguments& arguments) {
   form.center_lps_mm = center;
   if (arguments.has("--radii-mm")) {
     if (arguments.has("--radius-mm") || arguments.has("--irregular"))
-      throw UsageError("--radii-mm takes no other radius beside it");
+      throw UsageError("--radii-mm cannot be combined with another radius");
     form.outline = cases::LesionOutline::ellipsoid;
     form.radii_mm = point_of("--radii-mm", arguments.text("--radii-mm"));
   } else {
@@ -147,17 +147,17 @@ int run_case_lesion(const Arguments& arguments) {
 constexpr Option kLesionOptions[] = {
     kLibrary,
     {"--center-mm", "X,Y,Z", "centre, LPS"},
-    {"--radius-mm", "R", "of a sphere, or the mean one of an irregular lesion"},
-    {"--radii-mm", "A,B,C", "an ellipsoid's, along LPS"},
+    {"--radius-mm", "R", "radius of a sphere, or mean radius of an irregular lesion"},
+    {"--radii-mm", "A,B,C", "radii of an ellipsoid, along LPS"},
     {"--irregular", "SHARE", "standard deviation of the radius, as a share of it: 0 to 0.3"},
-    {"--seed", "N", "which irregular one; default 1"},
+    {"--seed", "N", "which irregular shape; default 1"},
     {"--kind", "KIND",
-     "what it is: cyst, hcc, metastasis, haemangioma, abscess, node or isoechoic; default by_hu, the "
-     "tissue of its HU"},
+     "what it is: cyst, hcc, metastasis, haemangioma, abscess, node or isoechoic; default by_hu, the tissue that "
+     "fits its HU"},
     {"--hu", "H", "its HU; default the kind's"},
-    {"--contrast-hu", "D", "in place of --hu: added to the tissue there"},
-    {"--edge-mm", "W", "width of its edge, from all to nothing; default 0"},
-    {"--remove", "LESION", "takes one away again"},
+    {"--contrast-hu", "D", "in place of --hu: HU added to those of the tissue there"},
+    {"--edge-mm", "W", "width of its edge, over which it fades to nothing; default 0"},
+    {"--remove", "LESION", "removes one again"},
     kJson};
 
 }  // namespace

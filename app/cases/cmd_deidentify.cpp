@@ -14,7 +14,7 @@ namespace {
 int run_deidentify(const Arguments& arguments) {
   auto key = key_from_file(arguments.text("--key"));
   if (!key) return refuse(error_of("--key", arguments.text("--key"), key.error()));
-  if (::isatty(STDERR_FILENO) != 0) std::fputs("taking out what identifies …\n", stderr);
+  if (::isatty(STDERR_FILENO) != 0) std::fputs("removing what identifies …\n", stderr);
   const auto done = casedb::deidentify(arguments.positional(0), arguments.positional(1), *key);
   key->fill(std::byte{0});
   if (!done) return refuse(done.error());
@@ -26,14 +26,14 @@ int run_deidentify(const Arguments& arguments) {
   for (const auto& [what, count] : done->counts)
     std::printf("%-10s %lld elements\n", what.c_str(), static_cast<long long>(count));
   for (const auto& [code, count] : done->left_out) std::printf("left out: %s: %d files\n", code.c_str(), count);
-  std::puts("What the pixels show is as it was: look through them for text and faces before you pass them on.");
+  std::puts("The pixels are unchanged: look through them for text and faces before you pass them on.");
   return kDone;
 }
 
-constexpr Option kDeidentifyOptions[] = {
-    {"--key", "FILE",
-     "keeps UIDs consistent with other runs; made when there is none. Whoever has it can tell them apart"},
-    kJson};
+constexpr Option kDeidentifyOptions[] = {{"--key", "FILE",
+                                          "keeps UIDs consistent with other runs; created if there is none. "
+                                          "Whoever has it can link the new UIDs to the old ones"},
+                                         kJson};
 
 }  // namespace
 
@@ -44,8 +44,8 @@ Command deidentify_command() {
           .max_positionals = 2,
           .options = kDeidentifyOptions,
           .summary =
-              "Writes DICOM without identity (PS3.15 Basic Profile 2024b): a file, or a folder with all below it, "
-              "into a new folder. What the pixels show stays; other bits of their cells are cleared.",
+              "Writes de-identified DICOM (PS3.15 Basic Profile 2024b): a file, or a folder with everything below "
+              "it, into a new folder. What the pixels show stays; other bits of their cells are cleared.",
           .run = &run_deidentify};
 }
 

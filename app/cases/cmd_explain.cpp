@@ -60,14 +60,14 @@ int run_case_explain(const Arguments& arguments) {
   std::printf("law of sight     %s%s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
               row->modality != cases::Modality::xray ? ""
               : row->sight_law >= cases::SightLaw::scatter
-                  ? ": pictures include what the patient scatters; a narrower field is clearer"
-                  : ": pictures leave out what the patient scatters");
+                  ? ": pictures include scatter from the patient; a narrower field is clearer"
+                  : ": pictures leave out scatter from the patient");
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
   if (row->modality == cases::Modality::ultrasound)
     std::printf("colour Doppler   flow in %s%s\n", listed(needs.flowing).c_str(),
-                needs.unknown_flow.empty() ? "" : ("; not known in " + listed(needs.unknown_flow)).c_str());
+                needs.unknown_flow.empty() ? "" : ("; unknown in " + listed(needs.unknown_flow)).c_str());
   if (needs.displacement_bytes == 0) {
-    std::puts("moving tissue    none: no source, nothing is asked");
+    std::puts("moving tissue    none: nothing moves it");
     return kDone;
   }
   std::printf("moving tissue    %12zu bytes, %zu of at most %d sources\n", needs.displacement_bytes,

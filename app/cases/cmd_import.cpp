@@ -31,7 +31,7 @@ namespace {
 void tell_same_ct(casedb::Library& library, const casedb::CaseRow& row) {
   for (const casedb::CaseRow& other : casedb::list_case_heads(library))
     if (other.case_id != row.case_id && other.volume_sha256 == row.volume_sha256)
-      std::fprintf(stderr, "note: the library has this CT already, in case %s, “%s”, version %d (%s)\n",
+      std::fprintf(stderr, "note: the library already has this CT, in case %s, “%s”, version %d (%s)\n",
                    other.case_id.c_str(), other.title.c_str(), other.version, name_of(other.state).c_str());
 }
 
@@ -44,27 +44,26 @@ Value named_option(const Arguments& arguments, const char* name, const base::Nam
 // The built-in patient that is asked for; nothing where a source is. A patient lay in the scanner as in the case.
 std::optional<volume::PhantomOptions> built_in_of(const Arguments& arguments, cases::PatientPosition position) {
   const bool built_in = arguments.has("--built-in");
-  if (built_in == (arguments.positionals() > 0))
-    throw UsageError("import takes a SOURCE or --built-in, one of the two");
+  if (built_in == (arguments.positionals() > 0)) throw UsageError("import takes either a SOURCE or --built-in");
   if (!built_in) {
     if (arguments.has("--body") || arguments.has("--calyces"))
       throw UsageError("--body and --calyces go with --built-in");
     return std::nullopt;
   }
   for (const char* of_a_source : {"--series", "--face", "--reason", "--large", "--no-burned-in-text"})
-    if (arguments.has(of_a_source)) throw UsageError(std::string(of_a_source) + " is of a SOURCE");
+    if (arguments.has(of_a_source)) throw UsageError(std::string(of_a_source) + " needs a SOURCE");
   for (const casedb::PreparationRow& row : casedb::kPreparationRows)
-    if (arguments.has(row.option)) throw UsageError(std::string(row.option) + " is of a SOURCE");
+    if (arguments.has(row.option)) throw UsageError(std::string(row.option) + " needs a SOURCE");
   volume::PhantomOptions options;
   options.region = named_option(arguments, "--built-in", volume::kRegionNames);
   options.body = named_option(arguments, "--body", volume::kBodyNames);
   options.calyces = named_option(arguments, "--calyces", volume::kCalycesNames);
   if (options.region != volume::Region::torso && arguments.has("--calyces"))
-    throw UsageError("--calyces is of the torso");
+    throw UsageError("--calyces needs the torso");
   if (position == cases::PatientPosition::prone)
     options.posture = volume::Posture::prone;
   else if (position != cases::PatientPosition::supine)
-    throw UsageError("a built-in patient lies supine or prone");
+    throw UsageError("a built-in patient can only lie supine or prone");
   return options;
 }
 
@@ -211,7 +210,8 @@ int run_sample(const Arguments& arguments) {
 }
 
 int run_case_confirm(const Arguments& arguments) {
-  if (!arguments.has("--no-burned-in-text")) throw UsageError("--no-burned-in-text says what is confirmed");
+  if (!arguments.has("--no-burned-in-text"))
+    throw UsageError("--no-burned-in-text is missing: it says what is confirmed");
   arguments.required("--by");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
@@ -226,9 +226,9 @@ int run_case_confirm(const Arguments& arguments) {
 constexpr Option kBeforePreparation[] = {
     kLibrary,
     {"--built-in", "torso|groin|neck",
-     "in place of SOURCE: the built-in patient, made by formulas, no person's CT"},
-    {"--body", "adult|lean|obese|child", "of the built-in patient; default adult"},
-    {"--calyces", "normal|dilated|opacified", "of the built-in torso; default normal"},
+     "in place of SOURCE: the built-in patient, made by formulas, not from a person's CT"},
+    {"--body", "adult|lean|obese|child", "the built-in patient's build; default adult"},
+    {"--calyces", "normal|dilated|opacified", "the built-in torso's calyces; default normal"},
     {"--title", "TEXT", "the case's title; never taken from the source"},
     kSeries,
     {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
@@ -237,7 +237,7 @@ constexpr Option kBeforePreparation[] = {
     kReason,
 };
 constexpr Option kAfterPreparation[] = {
-    {"--large", nullptr, "takes a file whose voxels are more than 4 GiB unpacked, up to 8"},
+    {"--large", nullptr, "accepts a file whose voxels are more than 4 GiB unpacked, up to 8"},
     {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
     kJson};
 constexpr auto kImportOptions = [] {
@@ -277,7 +277,7 @@ Command sample_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kSampleOptions,
-          .summary = "Prints the HU at points of a case, and which tissue and organ are there.",
+          .summary = "Prints the HU, tissue and organ at points of a case.",
           .run = &run_sample};
 }
 

@@ -42,11 +42,12 @@ int run_case_meet(const Arguments& arguments) {
   return found->passed() > 0 ? kDone : kCheckFailed;
 }
 
-constexpr Option kMeetOptions[] = {kLibrary,
-                                   {"--people", "P", "of each level: novice, intermediate, expert; default 8"},
-                                   {"--seed", "N", "of who they are and how it goes; default 1"},
-                                   {"--jobs", "N", "threads; default one for each core. The results are the same"},
-                                   kJson};
+constexpr Option kMeetOptions[] = {
+    kLibrary,
+    {"--people", "P", "how many at each level: novice, intermediate, expert; default 8"},
+    {"--seed", "N", "decides who they are and how it goes; default 1"},
+    {"--jobs", "N", "threads; default one for each core. The results are the same"},
+    kJson};
 
 }  // namespace
 
@@ -56,7 +57,7 @@ Command case_meet_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kMeetOptions,
-          .summary = "Can it be met? Simulated operators try a case, graded and forgotten; 1 when nobody passes.",
+          .summary = "Can the case be passed? Simulated operators try it; graded, not kept. 1 when nobody passes.",
           .run = &run_case_meet};
 }
 

@@ -34,7 +34,7 @@ Command case_mesh_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kMeshOptions,
-          .summary = "Writes a case's skin as binary glTF, for browsers and others.",
+          .summary = "Writes a case's skin as binary glTF, for browsers and other programs.",
           .run = &run_case_mesh};
 }
 

@@ -87,8 +87,8 @@ int run_case_version(const Arguments& arguments) {
 constexpr Option kNoteOption{"--note", "TEXT", "one line kept with the decision"};
 
 constexpr Option kReviewOptions[] = {kLibrary,
-                                     {"--approve", nullptr, "a second person's word"},
-                                     {"--return", nullptr, "back to draft"},
+                                     {"--approve", nullptr, "approve it, as the second person"},
+                                     {"--return", nullptr, "send it back to draft"},
                                      kNoteOption};
 
 constexpr Option kPublishOptions[] = {
@@ -99,13 +99,14 @@ constexpr Option kRetireOptions[] = {kLibrary, kNoteOption};
 }  // namespace
 
 Command case_check_command() {
-  return {.name = "case check",
-          .positionals = "CASE",
-          .min_positionals = 1,
-          .max_positionals = 1,
-          .options = kLibraryJson,
-          .summary = "Tells whether a case is worth an attempt, and what its rule may name; 1 when it is not.",
-          .run = &run_case_check};
+  return {
+      .name = "case check",
+      .positionals = "CASE",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kLibraryJson,
+      .summary = "Checks whether a case is ready for attempts, and lists what its rule may name; 1 when it is not.",
+      .run = &run_case_check};
 }
 
 Command case_review_command() {
@@ -116,7 +117,7 @@ Command case_review_command() {
           .options = kReviewOptions,
           .acts = true,
           .named = true,
-          .summary = "Submits a draft to review; with --approve or --return a second person's answer.",
+          .summary = "Submits a draft for review; with --approve or --return records a second person's answer.",
           .run = &run_case_review};
 }
 
@@ -128,7 +129,7 @@ Command case_publish_command() {
           .options = kPublishOptions,
           .acts = true,
           .named = true,
-          .summary = "Publishes a case that holds its check and was approved; it never changes again.",
+          .summary = "Publishes a case that passes its check and was approved; it never changes again.",
           .run = &run_case_publish};
 }
 

@@ -77,7 +77,7 @@ void read_criteria(const Arguments& arguments, casedb::CaseSetting& setting) {
         throw UsageError(std::string(option) + " is METRIC<=VALUE, METRIC>=VALUE or METRIC=VALUE, not " +
                          shown(text));
       if (assessment::find_metric(criterion->metric) == nullptr)
-        throw UsageError(std::string(option) + ": no metric is called " + shown(criterion->metric) +
+        throw UsageError(std::string(option) + ": there is no metric called " + shown(criterion->metric) +
                          "; `seldinger help --metrics` lists them");
       criterion->critical = std::string(option) == "--critical";
       setting.rule.criteria.push_back(std::move(*criterion));
@@ -101,11 +101,11 @@ bool sets_more(const Arguments& arguments) {
 
 int run_case_setting(const Arguments& arguments) {
   if (!sets_more(arguments) && !arguments.has("--title"))
-    throw UsageError("nothing is to be set; `seldinger help case setting` lists what can be");
+    throw UsageError("nothing to set; `seldinger help case setting` lists what can be set");
   std::optional<std::string> rule;
   if (arguments.has("--rule")) {
     if (arguments.has("--pass") || arguments.has("--critical"))
-      throw UsageError("a rule is a file, or --pass and --critical");
+      throw UsageError("give the rule as a file, or with --pass and --critical");
     const auto text = read_text_of(arguments, "--rule", 1U << 20U);
     if (!text) return refuse(text.error());
     if (const auto read = assessment::rule_from_json(*text); !read) return refuse(read.error());
@@ -141,8 +141,8 @@ Command case_setting_command() {
           .options = kSettingOptions,
           .acts = true,
           .summary =
-              "Sets what a case asks of the trainee: guidance, needle, patient, limits, pass rule. What is "
-              "not given stays.",
+              "Sets what a case asks of the trainee: guidance, needle, patient, limits, pass rule. Settings not "
+              "given stay as they are.",
           .run = &run_case_setting};
 }
 

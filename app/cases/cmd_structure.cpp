@@ -39,7 +39,7 @@ void read_drawn(const Arguments& arguments, casedb::StructureRow& row) {
 volume::TissueClass tissue_of(const Arguments& arguments, const char* option) {
   const std::string name = arguments.required(option);
   const auto tissue = volume::tissue_of_name(name);
-  if (!tissue) throw UsageError(std::string(option) + " is a tissue class: liver, vessel, bone, …");
+  if (!tissue) throw UsageError(std::string(option) + " must be a tissue class: liver, vessel, bone, …");
   return *tissue;
 }
 
@@ -100,7 +100,7 @@ int run_case_structure(const Arguments& arguments) {
       return refuse(found.error());
     if (!arguments.has("--tissue")) {
       const auto tissue = volume::tissue_of_name(label_name);
-      if (!tissue) throw UsageError("--tissue says what the label's tissue is: its name is not known");
+      if (!tissue) throw UsageError("--tissue is needed: the label's name is not known, so give its tissue");
       row.tissue = *tissue;
     }
   }
@@ -158,30 +158,33 @@ constexpr Option kStructureOptions[] = {
     {"--radius-mm", "R", "drawn: of a sphere or a tube"},
     {"--radii-mm", "A,B,C", "drawn: of an ellipsoid, along LPS"},
     {"--tube", "X,Y,Z", "drawn: a point of a tube's middle line; give them in order", true},
-    {"--tissue", "TISSUE", "drawn, or a label: the tissue class it has in every picture and to the hand"},
+    {"--tissue", "TISSUE", "drawn, or a label: the tissue class that every picture shows and the hand feels"},
     {"--hu", "H|as_ct",
-     "drawn: what CT shows of it, as_ct: what is there; default what is typical of its class "
+     "drawn: its HU in the CT; as_ct: as the CT is there; default what is typical of its class "
      "(docs/decisions/0018)"},
-    {"--remove", "NAME", "takes one away again"},
+    {"--remove", "NAME", "removes one again"},
     kJson};
 
 constexpr Option kLabelOptions[] = {
     kLibrary,
     {"--name", "N=TEXT", "what label N is called", true},
-    {"--numbering", "own|totalsegmentator", "whose numbers the labels have: names and tissues follow; default own"},
+    {"--numbering", "own|totalsegmentator",
+     "whose numbering the labels use: names and tissues follow from it; default own"},
     kJson};
 
 }  // namespace
 
 Command case_structure_command() {
-  return {.name = "case structure",
-          .positionals = "CASE",
-          .min_positionals = 1,
-          .max_positionals = 1,
-          .options = kStructureOptions,
-          .acts = true,
-          .summary = "Adds a structure to a case: a tissue class, a label, or drawn; and what touching it means.",
-          .run = &run_case_structure};
+  return {
+      .name = "case structure",
+      .positionals = "CASE",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kStructureOptions,
+      .acts = true,
+      .summary =
+          "Adds a structure to a case: a tissue class, a label or a drawn shape; and says what touching it means.",
+      .run = &run_case_structure};
 }
 
 Command case_label_command() {

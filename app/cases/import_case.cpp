@@ -30,7 +30,7 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string pattern = (std::filesystem::temp_directory_path() / "seldinger-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw base::Failure("disk", "no temporary folder can be made");
+    if (::mkdtemp(pattern.data()) == nullptr) throw base::Failure("disk", "cannot make a temporary folder");
     path_ = pattern;
   }
   ~TemporaryFolder() {
@@ -101,7 +101,7 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
   if (!prepared) return casedb::with_doubted_hu(prepared.error(), *read);
   std::move(prepared->warnings.begin(), prepared->warnings.end(), std::back_inserter(read->warnings));
   if (prepares) {
-    progress("comparing it with the CT as it came");
+    progress("comparing it with the original CT");
     const auto full = casedb::full_surface(made.prepared->original, preparation.skin_hu);
     if (!full) return casedb::with_doubted_hu(full.error(), *read);
     read->warnings.push_back(

@@ -17,15 +17,15 @@ namespace seldinger::app {
 inline constexpr Option kSeries{"--series", "UID|N", "which series, when the folder holds several"};
 std::optional<std::string> series_of(const Arguments& arguments);  // nothing where it was not given
 
-inline constexpr Option kFace{
-    "--face", "refuse|crop|deface",
-    "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"};
+inline constexpr Option kFace{"--face", "refuse|crop|deface",
+                              "a volume with a face: default refuse; crop keeps what is below the chin; deface "
+                              "removes the front of the face"};
 // The same, where somebody may be behind the command who overrules the detector.
 inline constexpr Option kFaceOrOverrule{
     "--face", "refuse|crop|deface|overrule",
-    "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away; "
-    "overrule: an admin (--by) says that it is none, with --reason"};
-inline constexpr Option kReason{"--reason", "TEXT", "why what looks like a face is none; kept with the case"};
+    "a volume with a face: default refuse; crop keeps what is below the chin; deface removes the front of the "
+    "face; overrule: an admin (--by) says that it is not a face, with --reason"};
+inline constexpr Option kReason{"--reason", "TEXT", "why what looks like a face is not one; kept with the case"};
 
 // What becomes of what looks like a face, and why it is taken for none (where it is overruled).
 struct FaceWish {

@@ -49,7 +49,7 @@ base::Result<LabelFile> read_label_file(const std::filesystem::path& file, const
     read.labels.names.push_back(known ? known->name : "label " + std::to_string(label));
   }
   for (const auto& [label, name] : names) {
-    if (label > highest) return base::Error{"bad_labels", "a label that is named is not in the file"};
+    if (label > highest) return base::Error{"bad_labels", "a named label is not in the file"};
     read.labels.names[static_cast<std::size_t>(label)] = name;
   }
   const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
@@ -77,7 +77,7 @@ base::Result<LabelFile> read_label_file(const std::filesystem::path& file, const
         read.labels.label[at] = static_cast<std::uint8_t>(value);
         any = any || value != 0;
       }
-  if (!any) return base::Error{"bad_labels", "no voxel of the case takes a label"};
+  if (!any) return base::Error{"bad_labels", "no voxel of the case gets a label"};
   return read;
 }
 

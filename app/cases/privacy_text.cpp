@@ -31,9 +31,9 @@ std::string privacy_text(const casedb::CaseRow& row) {
   const bool overruled = std::any_of(row.warnings.begin(), row.warnings.end(),
                                      [](const base::Problem& one) { return one.code == "face_overruled"; });
   std::string text = std::string("face     ") + casedb::name_of(row.face_state) +
-                     (overruled ? ", the detector's finding overruled by an admin" : "") + "\n";
+                     (overruled ? ", detector overruled by an admin" : "") + "\n";
   text += "burned-in text: ";
-  text += !row.burned_in_checked ? "not confirmed that there is none"
+  text += !row.burned_in_checked ? "absence not confirmed"
           : row.burned_in_checked->person_id
               ? "none, confirmed by person " + *row.burned_in_checked->person_id +
                     (row.burned_in_checked->by_operator ? " (entered by the operator)" : "")

@@ -14,8 +14,8 @@ namespace internal {
 constexpr Option kBeforeSettings[] = {{"--library", "DIR", "the library's folder"},
                                       {"--title", "TEXT", "the case's title"}};
 constexpr Option kAfterSettings[] = {
-    {"--pass", "METRIC>=VALUE", "a criterion: <=, >= or =; with --critical it makes the whole rule anew", true},
-    {"--critical", "METRIC=VALUE", "a criterion that must not be missed whatever else is good", true},
+    {"--pass", "METRIC>=VALUE", "a criterion: <=, >= or =; with --critical it replaces the whole rule", true},
+    {"--critical", "METRIC=VALUE", "a criterion that must be met, however good the rest is", true},
     {"--rule", "FILE.json", "the rule from a file"}};
 constexpr std::size_t kOfSettings = [] {
   std::size_t count = 0;

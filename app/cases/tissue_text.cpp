@@ -66,9 +66,9 @@ std::string organs_text(const volume::Organs& organs) {
       add_to(named, words + " (" + std::to_string(std::lround(found->ml)) + " ml, " +
                         std::to_string(std::lround(100.0 * found->confidence)) + " % sure)");
   }
-  return "organs   " + (named.empty() ? std::string("none is sure enough to be named") : named) + "\n" +
-         (not_named.empty() ? std::string() : "not found, or not sure enough to name: " + not_named + "\n") +
-         "not looked for: heart, stomach, bowel, pancreas and whatever else is not listed\n";
+  return "organs   " + (named.empty() ? std::string("none is certain enough to be named") : named) + "\n" +
+         (not_named.empty() ? std::string() : "not found, or too uncertain to name: " + not_named + "\n") +
+         "not looked for: heart, stomach, bowel, pancreas and anything else not listed\n";
 }
 
 }  // namespace seldinger::app

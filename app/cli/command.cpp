@@ -23,7 +23,7 @@ std::map<std::string, TypedName>& typed_of_code() {
 std::vector<Option> options_of(const Command& command) {
   std::vector<Option> options(command.options.begin(), command.options.end());
   if (command.acts) options.insert(options.end(), std::begin(kActs), std::end(kActs));
-  if (command.named) options[options.size() - std::size(kActs)].help = "in whose name: who answers for it";
+  if (command.named) options[options.size() - std::size(kActs)].help = "in whose name: the person responsible";
   return options;
 }
 

@@ -33,7 +33,7 @@ struct Command {
 
 // Options that many commands share.
 inline constexpr Option kLibrary{
-    "--library", "DIR", "the library's folder; else SELDINGER_LIBRARY of the environment, else the demo's"};
+    "--library", "DIR", "the library's folder; else the environment variable SELDINGER_LIBRARY, else the demo's"};
 inline constexpr Option kNewLibrary{"--new-library", nullptr, "make the library if there is none"};
 inline constexpr Option kJson{"--json", nullptr, "one JSON document on standard output, nothing else"};
 inline constexpr Option kLibraryJson[] = {kLibrary, kJson};
@@ -42,11 +42,10 @@ inline constexpr Option kLibraryOnly[] = {kLibrary};
 
 // Who is behind a command.
 inline constexpr Option kActs[] = {
-    {"--by", "NAME", "in whose name; left out: the operator's, who has the library's files"},
+    {"--by", "NAME", "in whose name; default: the operator, who owns the library's files"},
     {"--password-file", "FILE",
-     "proof: its first line is the password of --by; - is standard input. Without proof the operator acts, and it "
-     "is "
-     "marked so"},
+     "proof: its first line is the password of --by; - is standard input. Without proof what is done is marked as "
+     "entered by the operator"},
     {"--token-file", "FILE", "proof: a session of `seldinger login`; default the one in the user's state folder"}};
 std::vector<Option> options_of(const Command& command);  // its own, and kActs where it acts
 

@@ -98,7 +98,7 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
         if (metric.id == first.id) print_value(metric);
     std::printf("  %s\n", first.unit.c_str());
   }
-  std::printf("\nEach attempt is the one in the middle of %zu with other seeds (here", kSeeds.size());
+  std::printf("\nEach attempt is the middle one of %zu with different seeds (here", kSeeds.size());
   for (const session::SimulatedAttempt& attempt : answer.attempts)
     std::printf("%s %s %llu", &attempt == &answer.attempts.front() ? "" : ",", attempt.operator_name.c_str(),
                 static_cast<unsigned long long>(attempt.seed));
@@ -119,7 +119,7 @@ int run_demo(const Arguments& arguments) {
     return run_demo_programme(arguments);
   }
   if (arguments.has("--cases") || arguments.has("--drills")) return run_demo_cases(arguments);
-  if (arguments.all("--ct").size() > 1) throw UsageError("more than one --ct goes with --cases only");
+  if (arguments.all("--ct").size() > 1) throw UsageError("more than one --ct needs --cases");
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
   const ServeAt at{"127.0.0.1", port, !arguments.has("--port")};
   const bool json = arguments.has("--json"), serving = !arguments.has("--no-serve");
@@ -165,21 +165,22 @@ int run_demo(const Arguments& arguments) {
 
 constexpr Option kDemoOptions[] = {
     kLibrary,
-    {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases any number of them", true},
+    {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases as many as you like", true},
     kSeries,
     kFace,
     {"--drills", nullptr,
-     "the first hour: three drills on blocks of gel, published, each passed once by a simulated expert whose "
-     "replay is to be watched, and the curriculum that leads through them; takes seconds"},
+     "the first hour: three published drills on gel blocks, each with the replay of a simulated expert to watch, "
+     "and the curriculum that leads through them; takes seconds"},
     {"--cases", nullptr,
-     "the drills, then the eight graded cases, of a --ct where it fits, else of the built-in patients; likewise"},
+     "the drills, then the eight graded cases, from a --ct where it fits, else from the built-in patients; set up "
+     "in the same way"},
     {"--programme", nullptr,
-     "the drills, and a programme of sixty simulated people in three cohorts who have practised them, for the "
+     "the drills, and a programme of sixty simulated people in three cohorts who have practised them, to fill the "
      "pages of mentors and directors; takes minutes"},
-    {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
+    {"--calyces", "normal|dilated|opacified", "the built-in case's calyces; default normal"},
     {"--modality", "ultrasound|xray|mpr",
      "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
-    {"--no-serve", nullptr, "end by printing what was made"},
+    {"--no-serve", nullptr, "print what was made, and end"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};
 
@@ -188,7 +189,7 @@ constexpr Option kDemoOptions[] = {
 Command demo_command() {
   return {.name = "demo",
           .options = kDemoOptions,
-          .summary = "The main job, end to end, on real or built-in CT.",
+          .summary = "Shows the program's main job from start to end, on a real or built-in CT.",
           .run = &run_demo};
 }
 

@@ -271,7 +271,7 @@ base::Result<void> take(const std::string& path, const Arguments& arguments, Sou
   auto read = import_case(path, series_of(arguments), {}, "import", face_of(arguments));
   if (!read) return read.error();
   const auto source = source_of(read->volume);
-  if (!source) return base::Error{"no_case_fits", "no graded case is made of this CT", read->warnings};
+  if (!source) return base::Error{"no_case_fits", "no graded case can be made from this CT", read->warnings};
   sources.insert_or_assign(*source, std::move(*read));
   return {};
 }
@@ -281,8 +281,8 @@ base::Result<void> take(const std::string& path, const Arguments& arguments, Sou
 int run_demo_cases(const Arguments& arguments) {
   const bool graded = arguments.has("--cases");
   if (arguments.has("--calyces") || arguments.has("--modality"))
-    throw UsageError("--calyces and --modality are not of drills or graded cases");
-  if (!graded && arguments.has("--ct")) throw UsageError("--ct is not of the drills: they are built in");
+    throw UsageError("--calyces and --modality do not go with drills or graded cases");
+  if (!graded && arguments.has("--ct")) throw UsageError("--ct does not go with the drills: they are built in");
   Sources sources;
   DemoCasesAnswer answer;
   for (const std::string& path : arguments.all("--ct"))

@@ -88,7 +88,7 @@ base::Result<DemoCaseFound> demo_case(std::optional<casedb::Library>& library, M
   const bool own = arguments.has("--ct");
   const volume::Calyces calyces = calyces_of(arguments);
   const cases::Modality modality = modality_of(arguments);
-  if (own && arguments.has("--calyces")) throw UsageError("--calyces is of the built-in case, not of a CT");
+  if (own && arguments.has("--calyces")) throw UsageError("--calyces needs the built-in case, not a CT");
   std::optional<casedb::NewCase> made;
   std::string volume_sha256;
   if (own) {

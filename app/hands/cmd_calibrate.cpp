@@ -57,9 +57,9 @@ int run_haptics_calibrate(const Arguments& arguments) {
 }
 
 constexpr Option kCalibrateOptions[] = {
-    {"--device", "left|right", "which of the station's two"},
-    {"--station", "FILE.json", "where its calibration is kept; the other device's stays"},
-    {"--device-id", "ID", "the arm that stands there, as `device list` names it"},
+    {"--device", "left|right", "which of the station's two devices"},
+    {"--station", "FILE.json", "where its calibration is stored; the other device's stays"},
+    {"--device-id", "ID", "the arm in that place, as `device list` names it"},
     {"--grip-id", "ID", "the stylus on that arm"},
     kJson};
 
@@ -72,9 +72,9 @@ Command haptics_calibrate_command() {
           .max_positionals = 1,
           .options = kCalibrateOptions,
           .summary =
-              "Finds where a device stands on the template (156 mm square, cross of 128 mm, box of 143 mm): "
-              "columns point, x_mm, y_mm, z_mm as the device reads them at a, b, c, d, f and, where taken, e. "
-              "Refused above 1 mm.",
+              "Finds the position of a device on the template (156 mm square, cross of 128 mm, box of 143 mm): "
+              "columns point, x_mm, y_mm, z_mm as the device reads them at a, b, c, d, f and, where taken, e. An "
+              "error above 1 mm is refused.",
           .run = &run_haptics_calibrate};
 }
 

@@ -109,7 +109,7 @@ int run_device_probe(const Arguments& arguments) {
   const devices::HaplyStatus status = haply.status();
   for (std::size_t side = 0; side < 2; ++side) answer.arms[side].ids = status.ids[side];
   if (answer.arms[0].readings + answer.arms[1].readings == 0)
-    return refuse({"no_device", "the service answers, and no arm with a grip does", {}});
+    return refuse({"no_device", "the service answers, but no arm with a grip does", {}});
   std::fputs((arguments.has("--json") ? json_of_device_probe(answer) : text_of_device_probe(answer)).c_str(),
              stdout);
   return kDone;
@@ -157,23 +157,23 @@ constexpr Option kDeviceProbeOptions[] = {
     kHost,
     kPort,
     {"--seconds", "S", "how long; default 3"},
-    {"--station", "FILE.json", "whose arms are left and right, and where they stand"},
+    {"--station", "FILE.json", "which arm is left and which right, and their positions"},
     kJson};
 
 constexpr Option kDeviceSimulateOptions[] = {
-    {"--port", "N", "where to listen on loopback; 0 takes any that is free; default 10001"},
+    {"--port", "N", "the port on loopback; 0 takes any free one; default 10001"},
     {"--seconds", "S", "how long; default until it is stopped"},
-    {"--delay-ms", "D", "everything is said so much later"},
+    {"--delay-ms", "D", "delay of every message"},
     {"--lose-every", "S", "hangs up every S seconds"},
-    {"--damage-every", "S", "says something broken every S seconds"},
-    {"--swap", nullptr, "tells of the arms in the other order"}};
+    {"--damage-every", "S", "sends a damaged message every S seconds"},
+    {"--swap", nullptr, "lists the arms in the other order"}};
 
 }  // namespace
 
 Command device_list_command() {
   return {.name = "device list",
           .options = kDeviceListOptions,
-          .summary = "Lists what hands can use here: arms and grips of a Haply Inverse service, a 3-D mouse.",
+          .summary = "Lists the hand devices here: arms and grips of a Haply Inverse service, a 3-D mouse.",
           .run = &run_device_list};
 }
 
@@ -185,12 +185,12 @@ Command device_probe_command() {
 }
 
 Command device_simulate_command() {
-  return {
-      .name = "device simulate",
-      .options = kDeviceSimulateOptions,
-      .summary =
-          "Is a Haply Inverse service without hardware: two virtual hands on virtual arms, with faults on request.",
-      .run = &run_device_simulate};
+  return {.name = "device simulate",
+          .options = kDeviceSimulateOptions,
+          .summary =
+              "Acts as a Haply Inverse service without hardware: two virtual hands on virtual arms, with faults on "
+              "request.",
+          .run = &run_device_simulate};
 }
 
 }  // namespace seldinger::app

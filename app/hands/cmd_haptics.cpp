@@ -188,37 +188,36 @@ int run_haptics_selftest(const Arguments& arguments) {
 }
 
 constexpr Option kInsertOptions[] = {
-    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of this tissue, behind its capsule"},
     {"--speed-mm-s", "V", "the needle's speed"},
-    {"--depth-mm", "D", "how deep, from the first touch of the undeformed capsule"},
+    {"--depth-mm", "D", "how deep, from first touching the undeformed capsule"},
     {"--hold-s", "T", "rest at that depth; default 0"},
     {"--retract", nullptr, "then pull back to depth 0"},
     {"--gauge", "G", "16 to 25; default 22"},
     {"--relaxation", nullptr, "held tissue relaxes"},
     {"--touch", base::kAlternatives<cases::kTouchLawNames>,
      "the law of touch; default steady, the same at any speed. by_speed: the faster the needle, the less force "
-     "opens a capsule, and tissue that is held relaxes. organs_move: as by_speed; what moves is seen, not felt"},
-    {"--tip", base::kAlternatives<cases::kNeedleTipNames>, "its form, which counts by speed; default bevel"},
-    {"--introducer-mm", "D", "it goes through an introducer that ends so deep; default none"},
+     "opens a capsule, and held tissue relaxes. organs_move: as by_speed; the movement is seen, not felt"},
+    {"--tip", base::kAlternatives<cases::kNeedleTipNames>, "its shape, which matters with by_speed; default bevel"},
+    {"--introducer-mm", "D", "it goes through an introducer that ends at this depth; default none"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
 
 constexpr Option kNeedlesOptions[] = {
-    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of this tissue, behind its capsule"},
     {"--gauge", "G", "16 to 25; default 22"},
-    {"--speed-mm-s", "V", "of each; default 8.33 (the thesis' 500 mm/min)"},
+    {"--speed-mm-s", "V", "speed of each needle; default 8.33 (the thesis' 500 mm/min)"},
     {"--out", "FILE.html", "the chart"}};
 
 constexpr Option kSelftestOptions[] = {
     {"--seconds", "S", "how long; default 10"},
-    {"--most-missed", "SHARE",
-     "of the ticks, before it counts as failed; default 0.05, for a machine that others share"},
+    {"--most-missed", "SHARE", "share of ticks that may be missed; default 0.05, for a shared machine"},
     kJson};
 
 constexpr Option kFitOptions[] = {
     {"--tissue", "kidney|liver|muscle|fat|skin|…", "the row's class; default soft_tissue"},
-    {"--gauge", "G", "of the needle it was measured with, 16 to 25; default 22. The row is at 22"},
+    {"--gauge", "G", "the needle it was measured with, 16 to 25; default 22. The row is for 22"},
     {"--gaussians", "K", "1 to 12; default 8 (thesis eq. 5.1)"},
-    {"--source", "TEXT", "where the curve was measured; goes into the row"},
+    {"--source", "TEXT", "where the curve was measured; stored in the row"},
     {"--out", "FILE.html", "curve, models and residuals; default FILE.fit.html beside FILE.csv"},
     kJson};
 
@@ -235,7 +234,7 @@ Command haptics_needles_command() {
   return {.name = "haptics needles",
           .options = kNeedlesOptions,
           .summary =
-              "Draws force against depth of every form of tip in one tissue, and says where its numbers come from.",
+              "Draws force against depth for every tip shape in one tissue, and says where its numbers come from.",
           .run = &run_haptics_needles};
 }
 

@@ -36,9 +36,9 @@ bool names(const std::vector<std::string>& ids, const std::string& id) {
 
 std::string arm_words(const ArmSeen& arm, const devices::HaplyIds& ids, const devices::HaplyStatus& status) {
   if (!status.connected) return "no service answers";
-  if (ids.arm.empty()) return "no arm is left for this hand";
+  if (ids.arm.empty()) return "there is no arm for this hand";
   const std::string who = "arm " + ids.arm + (ids.grip.empty() ? "" : ", grip " + ids.grip);
-  if (!names(status.arms, ids.arm)) return who + ": the service does not tell of this arm";
+  if (!names(status.arms, ids.arm)) return who + ": the service does not report this arm";
   if (ids.grip.empty() || !names(status.grips, ids.grip))
     return who + ": its grip does not answer; is it switched on?";
   if (!arm.reading.healthy) return who + ": silent";
@@ -52,12 +52,12 @@ std::string check_asks(const devices::ArmCheck& check) {
       return "Waiting for the arm to answer …";
     case CheckStep::reach:
       return formatted(
-          "Move the stylus as far as it goes: left and right, up and down, near and far. It has to reach %.0f mm "
-          "each way. Space goes on with less.",
+          "Move the stylus as far as it goes: left and right, up and down, near and far. It must reach %.0f mm "
+          "each way. Space continues with less.",
           devices::kCheckReachMm);
     case CheckStep::push:
       return formatted(
-          "Hold the stylus loosely and still. The arm pushes gently, by %.0f N, along each of its axes: push %zu "
+          "Hold the stylus loosely and still. The arm pushes gently, with %.0f N, along each of its axes: push %zu "
           "of 6 is next, along %s.",
           devices::kCheckForceN, check.pushing() + 1, kAlong[std::min<std::size_t>(check.pushing(), 5)]);
     case CheckStep::done:
@@ -80,11 +80,11 @@ std::vector<CheckLine> check_lines(const devices::ArmCheck& check) {
     if (check.pushes()[i] == PushFound::still) still += std::string(" ") + kAlong[i];
     if (check.pushes()[i] == PushFound::wrong_way) wrong += std::string(" ") + kAlong[i];
   }
-  std::string pushes = "Pushes where it is told to";
+  std::string pushes = "Pushes in the right direction";
   if (done && !untried.empty()) pushes = "Not tried along" + untried;
   if (!still.empty()) pushes = "Does not push along" + still + ": held too fast, or a motor is off";
   if (!wrong.empty())
-    pushes = "Pushes another way than told along" + wrong + (still.empty() ? "" : "; none along" + still);
+    pushes = "Pushes in the wrong direction along" + wrong + (still.empty() ? "" : "; none along" + still);
   lines.push_back(line(done || !still.empty() || !wrong.empty(), done && check.pushes_hold(), pushes));
   lines.push_back(line(done, check.lateness_holds(),
                        check.lateness().n == 0
@@ -107,7 +107,7 @@ std::string taking_asks(const devices::PointTaking& taking) {
   if (!asked) return "All points are taken.";
   if (taking.state() == devices::Taking::reading) return "Hold it still …";
   std::string words;
-  if (taking.state() == devices::Taking::moved) words = "It moved while it was read. ";
+  if (taking.state() == devices::Taking::moved) words = "It moved during the reading. ";
   if (taking.state() == devices::Taking::lost) words = "The arm did not answer. ";
   return words + "Put the stylus' tip on " + point_words(*asked) +
          ", hold it still, and press its button (or Space).";
@@ -115,9 +115,9 @@ std::string taking_asks(const devices::PointTaking& taking) {
 
 std::string calibration_words(const base::Result<devices::Calibration>& calibration) {
   if (calibration) {
-    std::string words = formatted(
-        "Good: off by %.2f mm at most (%.2f rms), of %.0f allowed. By point:", calibration->residual_max_mm,
-        calibration->residual_rms_mm, devices::kMostResidualMm);
+    std::string words =
+        formatted("Good: off by at most %.2f mm (%.2f rms); %.0f allowed. By point:", calibration->residual_max_mm,
+                  calibration->residual_rms_mm, devices::kMostResidualMm);
     for (const devices::Calibration::Point& point : calibration->points)
       words += formatted(" %s %.2f", point.taken.name.c_str(), point.residual_mm);
     return words + ".";

@@ -87,7 +87,7 @@ std::string text_of_fit(const FitAnswer& answer) {
           with_error(model.intercept_n, error.intercept_n, "N") + line(" from %.1f mm\n", model.plateau_mm());
   text += plateau.capsule ? "Capsule: opens at " + with_error(model.rupture_n, error.rupture_n, "N") + ", dent " +
                                 with_error(model.dent_mm, error.dent_mm, "mm") + "\n"
-                          : "Capsule: none stands out\n";
+                          : "Capsule: none found\n";
   text += line("RMSE %.4f N, on the plateau %.4f N; ", plateau.quality.rmse_n, plateau.plateau_rmse_n) +
           text_of_starts(plateau.quality) + "\n\n";
   text += "Sum of Gaussians (thesis eq. 5.1):\n  height, N  centre, mm  sigma, mm\n";

@@ -93,7 +93,7 @@ devices::DeviceGains gains_of(const Json& device, bool& sound) {
 }  // namespace
 
 base::Result<Station> read_station(const std::filesystem::path& path) {
-  const base::Error bad{"bad_station", "the file of the station is not one of ours", {}};
+  const base::Error bad{"bad_station", "the station file is not one of this program's", {}};
   const auto text = read_text(path, 1U << 20U);
   if (!text) return text.error();
   Station station;

@@ -32,7 +32,7 @@ constexpr std::string_view kEraseLine = "\x1b[K";
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
   Pipe() {
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw base::Failure("no_reader", "no file is left for a job");
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw base::Failure("no_reader", "no file can be opened for a job");
   }
   ~Pipe() {
     for (int& end : ends) close(end);
@@ -116,7 +116,7 @@ ChildEnd run_this_program(const std::vector<std::string>& words, const std::func
   Pipe::close(nothing);
   Pipe::close(output.ends[1]);
   Pipe::close(errors.ends[1]);
-  if (child < 0) throw base::Failure("no_reader", "no process can be started for a job");
+  if (child < 0) throw base::Failure("no_reader", "cannot start a process for a job");
 
   ChildEnd end;
   Lines lines(doing);

@@ -86,9 +86,9 @@ int run_bundle_import(const Arguments& arguments) {
   for (const std::string& case_id : cases->stored) std::printf("case %s stored\n", case_id.c_str());
   for (const std::string& case_id : cases->for_review)
     std::printf("case %s was published by its sender: it is in review here\n", case_id.c_str());
-  if (cases->healed > 0) std::printf("%zu damaged files of cases here are whole again\n", cases->healed);
+  if (cases->healed > 0) std::printf("%zu damaged files of cases here are repaired\n", cases->healed);
   for (const std::string& case_id : cases->present)
-    std::printf("case %s is here already; nothing was done\n", case_id.c_str());
+    std::printf("case %s is already here; nothing was done\n", case_id.c_str());
   return kDone;
 }
 
@@ -105,7 +105,7 @@ int run_bundle_trust(const Arguments& arguments) {
   const std::string& what = arguments.positional(0);
   const bool list = what == "list", add = what == "add";
   if (!list && !add && what != "remove") throw UsageError("bundle trust add KEY --label NAME, list, or remove KEY");
-  if (arguments.positionals() != (list ? 1U : 2U)) throw UsageError(list ? "list takes no key" : "which key?");
+  if (arguments.positionals() != (list ? 1U : 2U)) throw UsageError(list ? "list takes no KEY" : "KEY is missing");
   const std::string label = add ? arguments.required("--label") : "";
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
@@ -129,7 +129,7 @@ int run_bundle_trust(const Arguments& arguments) {
 }
 
 constexpr Option kBundleOptions[] = {kLibrary,
-                                     {"--out", "FILE.sdbundle", "the file; replaced when it is there"},
+                                     {"--out", "FILE.sdbundle", "the file; replaced if it exists"},
                                      {"--sign", "KEYFILE", "signs it with the secret key that `bundle key` made"},
                                      kJson};
 
@@ -147,7 +147,7 @@ Command case_bundle_command() {
           .max_positionals = 1,
           .options = kBundleOptions,
           .acts = true,
-          .summary = "Writes a case as one checked file for another library; attempts and people stay.",
+          .summary = "Writes a case as one checked file for another library, without attempts or people.",
           .run = &run_case_bundle};
 }
 
@@ -155,7 +155,7 @@ Command bundle_export_command() {
   return {.name = "bundle export",
           .options = kBundleOptions,
           .acts = true,
-          .summary = "Writes every case of a library as one such file.",
+          .summary = "Writes every case of a library as one bundle.",
           .run = &run_bundle_export};
 }
 
@@ -167,8 +167,8 @@ Command bundle_import_command() {
           .options = kImportOptions,
           .acts = true,
           .summary =
-              "Checks such a file and takes its cases into the library, all or none; a case that is there already "
-              "stays. What its sender published is in review here.",
+              "Checks a bundle and imports its cases, all or none; a case that the library already has stays as it "
+              "is. Cases that the sender published are in review here.",
           .run = &run_bundle_import};
 }
 
@@ -178,18 +178,17 @@ Command bundle_check_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kJsonOnly,
-          .summary = "Checks such a file, every byte of it.",
+          .summary = "Checks a bundle, every byte of it.",
           .run = &run_bundle_check};
 }
 
 Command bundle_key_command() {
-  return {
-      .name = "bundle key",
-      .positionals = "KEYFILE",
-      .min_positionals = 1,
-      .max_positionals = 1,
-      .summary = "Makes a secret key to sign bundles with, unless the file is there, and prints its public key.",
-      .run = &run_bundle_key};
+  return {.name = "bundle key",
+          .positionals = "KEYFILE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .summary = "Makes a secret key to sign bundles with, unless the file exists, and prints its public key.",
+          .run = &run_bundle_key};
 }
 
 Command bundle_trust_command() {
@@ -199,7 +198,7 @@ Command bundle_trust_command() {
           .max_positionals = 2,
           .options = kTrustOptions,
           .acts = true,
-          .summary = "Keeps the public keys whose signatures are known in a library, each with a name.",
+          .summary = "Manages the public keys whose signatures a library knows, each with a name.",
           .run = &run_bundle_trust};
 }
 

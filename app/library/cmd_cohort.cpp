@@ -35,7 +35,7 @@ int run_cohort_list(const Arguments& arguments) {
     std::fputs(json_of_cohorts(cohorts).c_str(), stdout);
     return kDone;
   }
-  if (cohorts.empty()) std::puts("There is no cohort yet; `seldinger cohort add` makes one.");
+  if (cohorts.empty()) std::puts("There are no cohorts yet; `seldinger cohort add` makes one.");
   for (const casedb::Cohort& one : cohorts) {
     const casedb::CohortCells cells = casedb::cells_of(one);
     std::printf("%s  %-24s %-16s %d learner%s%s\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
@@ -105,13 +105,13 @@ int run_cohort_direct(const Arguments& arguments) {
 
 constexpr Option kCohortAddOptions[] = {kLibrary,
                                         {"--programme", "TEXT", "the programme to which it belongs"},
-                                        {"--site", "TEXT", "where; may be left out"},
+                                        {"--site", "TEXT", "where it is; optional"},
                                         kJson};
 constexpr Option kCohortEnrolOptions[] = {kLibrary,
                                           kWhose,
                                           {"--mentor", nullptr, "as a mentor; else as a learner"},
-                                          {"--end", nullptr, "from now on no longer, in neither post"}};
-constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}};
+                                          {"--end", nullptr, "end it from now on, as learner and as mentor"}};
+constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "end it from now on"}};
 
 }  // namespace
 
@@ -136,7 +136,7 @@ Command cohort_show_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kLibraryJson,
-          .summary = "Shows who is and was in a cohort, by its title or id.",
+          .summary = "Shows who is and was in a cohort.",
           .run = &run_cohort_show};
 }
 
@@ -158,7 +158,7 @@ Command cohort_direct_command() {
           .max_positionals = 1,
           .options = kCohortDirectOptions,
           .acts = true,
-          .summary = "Makes somebody director of a programme, who sees the learners of its cohorts by name.",
+          .summary = "Makes somebody director of a programme; a director sees the learners of its cohorts by name.",
           .run = &run_cohort_direct};
 }
 

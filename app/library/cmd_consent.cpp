@@ -39,7 +39,7 @@ int run_consent_list(const Arguments& arguments) {
     std::fputs(json_of_consents(consents).c_str(), stdout);
     return kDone;
   }
-  if (consents.empty()) std::puts("Nothing asks for consent; `seldinger consent text` adds a text.");
+  if (consents.empty()) std::puts("Nobody is asked for consent yet; `seldinger consent text` adds a text.");
   for (const casedb::Consent& one : consents)
     std::printf("%s  version %d  %-12s %s\n", one.text_id.c_str(), one.version,
                 one.stands()    ? "given"
@@ -74,7 +74,7 @@ int run_user_fact(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto person = casedb::open_account(*library, arguments.positional(0));
   if (!person) return refuse(person.error());
-  if (arguments.positionals() == 2) throw UsageError("a fact and its answer, or neither");
+  if (arguments.positionals() == 2) throw UsageError("give both a fact and its answer, or neither");
   if (arguments.positionals() == 3) {
     if (const auto by = acting_on(*library, arguments, casedb::Action::answer_consent, person->person_id); !by)
       return refuse(by.error());
@@ -97,7 +97,7 @@ int run_user_fact(const Arguments& arguments) {
 }
 
 constexpr Option kConsentTextOptions[] = {
-    kLibrary, {"--study", "STUDY", "of this study; left out: research with this library"}};
+    kLibrary, {"--study", "STUDY", "for this study; left out: for research with this library"}};
 constexpr Option kConsentListOptions[] = {kLibrary, kWhose, kJson};
 constexpr Option kConsentGiveOptions[] = {kLibrary, kWhose};
 constexpr Option kConsentWithdrawOptions[] = {
@@ -130,7 +130,7 @@ Command consent_give_command() {
           .max_positionals = 1,
           .options = kConsentGiveOptions,
           .acts = true,
-          .summary = "Notes that somebody consents, given on paper; on the dashboard people answer themselves.",
+          .summary = "Records consent that somebody gave on paper; on the dashboard people answer for themselves.",
           .run = [](const Arguments& arguments) { return run_consent_answer(arguments, true); }};
 }
 
@@ -142,19 +142,21 @@ Command consent_withdraw_command() {
       .max_positionals = 1,
       .options = kConsentWithdrawOptions,
       .acts = true,
-      .summary = "Notes that somebody no longer consents, or that consent to research does not cover this study.",
+      .summary =
+          "Records that somebody no longer consents, or that their consent to research does not cover this study.",
       .run = [](const Arguments& arguments) { return run_consent_answer(arguments, false); }};
 }
 
 Command user_fact_command() {
-  return {.name = "user fact",
-          .positionals = "NAME [FACT ANSWER]",
-          .min_positionals = 1,
-          .max_positionals = 3,
-          .options = kLibraryJson,
-          .acts = true,
-          .summary = "Lists what somebody said of their experience, or notes an answer that holds from now on.",
-          .run = &run_user_fact};
+  return {
+      .name = "user fact",
+      .positionals = "NAME [FACT ANSWER]",
+      .min_positionals = 1,
+      .max_positionals = 3,
+      .options = kLibraryJson,
+      .acts = true,
+      .summary = "Lists what somebody said about their experience, or records an answer that is valid from now on.",
+      .run = &run_user_fact};
 }
 
 }  // namespace seldinger::app

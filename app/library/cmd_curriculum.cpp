@@ -73,7 +73,7 @@ int run_curriculum_list(const Arguments& arguments) {
     std::fputs(json_of_curricula(curricula).c_str(), stdout);
     return kDone;
   }
-  if (curricula.empty()) std::puts("There is no curriculum yet; `seldinger curriculum add` makes one.");
+  if (curricula.empty()) std::puts("There are no curricula yet; `seldinger curriculum add` makes one.");
   for (const casedb::Curriculum& one : curricula)
     std::printf("%s  %-10s %zu items  %s\n", one.curriculum_id.c_str(), casedb::name_of(one.state).c_str(),
                 one.items.size(), one.title.c_str());
@@ -102,7 +102,7 @@ int run_curriculum_show(const Arguments& arguments) {
     const casedb::ItemState& item = items[i];
     std::string line = std::to_string(i + 1) + ". " + item.title;
     if (item.case_id.empty())
-      line += ", no version is published now";
+      line += ", no version is published";
     else
       line += ", version " + std::to_string(item.version);
     if (const std::string gates = reports::gates_text(curriculum->items[i].gates); !gates.empty())
@@ -129,12 +129,12 @@ int run_curriculum_remove(const Arguments& arguments) {
 
 constexpr Option kCurriculumItemOptions[] = {
     kLibrary,
-    {"--case", "CASE", "a published case; the item is it in whatever version is published"},
-    {"--attempt-limit", "N", "so many a trainee; default the case's own limit"},
-    {"--after", "N[:passed|:proficient]", "opens when item N is reached; default passed", true},
+    {"--case", "CASE", "a published case; the item always means its published version"},
+    {"--attempt-limit", "N", "attempts per trainee; default the case's own limit"},
+    {"--after", "N[:passed|:proficient]", "opens once item N is passed or proficient; default passed", true},
     kJson};
 
-constexpr Option kCurriculumShowOptions[] = {kLibrary, {"--user", "NAME", "how far this person is"}, kJson};
+constexpr Option kCurriculumShowOptions[] = {kLibrary, {"--user", "NAME", "show this person's progress"}, kJson};
 
 }  // namespace
 
@@ -158,7 +158,7 @@ Command curriculum_item_command() {
           .options = kCurriculumItemOptions,
           .acts = true,
           .named = true,
-          .summary = "Adds a case at a draft's end; by a mentor.",
+          .summary = "Adds a case to the end of a draft; by a mentor.",
           .run = &run_curriculum_item};
 }
 
@@ -170,7 +170,7 @@ Command curriculum_publish_command() {
           .options = kLibraryOnly,
           .acts = true,
           .named = true,
-          .summary = "Publishes a curriculum, by a director; it never changes again.",
+          .summary = "Publishes a curriculum; by a director. It never changes again.",
           .run = &run_curriculum_publish};
 }
 
@@ -187,7 +187,7 @@ Command curriculum_show_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kCurriculumShowOptions,
-          .summary = "Shows a curriculum's items; with --user what was reached and which is due.",
+          .summary = "Shows a curriculum's items; with --user what that person has reached and which item is due.",
           .run = &run_curriculum_show};
 }
 
@@ -199,7 +199,7 @@ Command curriculum_remove_command() {
           .options = kLibraryOnly,
           .acts = true,
           .named = true,
-          .summary = "Takes a draft away, by a mentor; retires a published one, by a director.",
+          .summary = "Deletes a draft (by a mentor) or retires a published curriculum (by a director).",
           .run = &run_curriculum_remove};
 }
 

@@ -86,7 +86,8 @@ int run_standard_dependability(const Arguments& arguments) {
 constexpr Option kProposeOptions[] = {
     kLibrary,
     {"--method", "METHOD", "contrasting_groups, borderline, angoff or hofstee (`seldinger help --statistics`)"},
-    {"--metric", "METRIC", "of which metric the values are; left out: a share of items, as judges of Angoff's say"},
+    {"--metric", "METRIC",
+     "the metric that the values are of; left out: a share of items, as Angoff's judges give"},
     kCsv,
     kValue,
     kGroup,
@@ -98,7 +99,7 @@ constexpr Option kProposeOptions[] = {
 constexpr Option kFreezeOptions[] = {kLibrary};
 constexpr Option kCutsOptions[] = {kLibrary, kJson};
 constexpr Option kDependabilityOptions[] = {
-    kLibrary, {"--simulated", nullptr, "of what simulated people did, in place of people"}, kJson};
+    kLibrary, {"--simulated", nullptr, "from simulated people's attempts, in place of real people's"}, kJson};
 
 }  // namespace
 
@@ -124,7 +125,7 @@ Command standard_freeze_command() {
           .options = kFreezeOptions,
           .acts = true,
           .named = true,
-          .summary = "Freezes a cut that somebody else proposed; by a director. From then on it stands.",
+          .summary = "Freezes a cut that somebody else proposed; by a director. It cannot be changed afterwards.",
           .run = &run_standard_freeze};
 }
 
@@ -134,7 +135,7 @@ Command standard_cuts_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kCutsOptions,
-          .summary = "Prints the cuts of a case, the oldest first: with interval, method, and who froze it.",
+          .summary = "Prints the cuts of a case, oldest first: with interval, method, and who froze each.",
           .run = &run_standard_cuts};
 }
 
@@ -142,8 +143,8 @@ Command standard_dependability_command() {
   return {.name = "standard dependability",
           .options = kDependabilityOptions,
           .summary =
-              "Tells how far passing a case tells persons apart (Φ), from the library's own attempts as persons "
-              "by cases by occasions, and how many cases a decision takes for 0.8.",
+              "Estimates how far passing a case tells people apart (Φ), from the library's own attempts as persons "
+              "by cases by occasions, and how many cases a decision needs for 0.8.",
           .run = &run_standard_dependability};
 }
 

@@ -17,8 +17,8 @@ int told(const Arguments& arguments, const base::Result<casedb::Erased>& erased)
     return kDone;
   }
   std::printf(
-      "erased: %zu attempts, %zu files, %zu copies of older schemas. Backups and exports made before still hold "
-      "what was erased.\n",
+      "erased: %zu attempts, %zu files, %zu copies of older schemas. Earlier backups and exports still hold what "
+      "was erased.\n",
       erased->attempts, erased->assets, erased->old_copies);
   return kDone;
 }
@@ -60,7 +60,7 @@ Command user_erase_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Erases a person: name, account, recordings, results and facts. What is left is an empty row.",
+          .summary = "Erases a person: name, account, recordings, results and facts. Only an empty row remains.",
           .run = &run_user_erase};
 }
 
@@ -71,7 +71,7 @@ Command attempt_delete_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Erases one attempt with its recording and results; an empty row is left.",
+          .summary = "Erases one attempt with its recording and results; only an empty row remains.",
           .run = &run_attempt_delete};
 }
 

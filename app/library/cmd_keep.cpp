@@ -101,7 +101,8 @@ int run_check(const Arguments& arguments) {
     }
   if (noted)
     if (auto library = casedb::Library::open(folder); library && !casedb::still_stands(*library, *noted))
-      report->findings.push_back({"audit_cut", "the audit log does not hold the row that was noted as its last"});
+      report->findings.push_back(
+          {"audit_cut", "the audit log does not hold the row that was recorded as its last"});
   if (arguments.has("--json")) {
     std::fputs(json_of_check(*report).c_str(), stdout);
   } else {
@@ -123,10 +124,10 @@ constexpr Option kCheckOptions[] = {
     kLibrary,
     {"--repair", nullptr, "remove leftovers: files that no row names, temporary files without a writer"},
     {"--audit-head", "COUNT:HASH",
-     "tells whether the row that `seldinger audit` once printed as the last still stands"},
-    {"--from", "BACKUP", "with --repair: files and values that are hurt come back from this backup of the library"},
+     "checks that the row that `seldinger audit` once printed as the last is unchanged"},
+    {"--from", "BACKUP", "with --repair: restores damaged files and values from this backup of the library"},
     {"--accept-damaged", nullptr,
-     "with --repair: values that are hurt and in no backup count from now on as they are; the audit log says so"},
+     "with --repair: accepts damaged values that no backup has as they are; the audit log says so"},
     kJson};
 
 }  // namespace
@@ -139,19 +140,20 @@ Command backup_command() {
           .options = kLibraryJson,
           .acts = true,
           .summary =
-              "Copies a library, also one in use, into a new folder and checks the copy. It holds names: keep it "
-              "as safe.",
+              "Copies a library, even one in use, into a new folder and checks the copy. It holds names: keep it "
+              "just as safe.",
           .run = &run_backup};
 }
 
 Command restore_command() {
-  return {.name = "restore",
-          .positionals = "IN",
-          .min_positionals = 1,
-          .max_positionals = 1,
-          .options = kLibraryJson,
-          .summary = "Makes a library from a backup, checked before it is there; never over another.",
-          .run = &run_restore};
+  return {
+      .name = "restore",
+      .positionals = "IN",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kLibraryJson,
+      .summary = "Restores a library from a backup, checked before it is put in place; never overwrites another.",
+      .run = &run_restore};
 }
 
 Command check_command() {
@@ -160,7 +162,7 @@ Command check_command() {
           .acts = true,
           .summary =
               "Checks a library: pages, references, files, values, recordings, leftovers, names; 1 when something "
-              "does not hold.",
+              "is wrong.",
           .run = &run_check};
 }
 

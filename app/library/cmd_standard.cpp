@@ -56,8 +56,8 @@ int run_standard_show(const Arguments& arguments) {
 
 constexpr Option kStandardSetOptions[] = {
     kLibrary,
-    {"--lesion", "LESION", "of attempts at this target; default the case's first"},
-    {"--modality", "mpr|xray|ultrasound", "of attempts with it; default the case's"},
+    {"--lesion", "LESION", "from attempts on this target; default the case's first"},
+    {"--modality", "mpr|xray|ultrasound", "from attempts with this modality; default the case's"},
     kJson};
 
 constexpr Option kStandardShowOptions[] = {kLibrary, kJson};
@@ -65,15 +65,16 @@ constexpr Option kStandardShowOptions[] = {kLibrary, kJson};
 }  // namespace
 
 Command standard_set_command() {
-  return {.name = "standard set",
-          .positionals = "CASE",
-          .min_positionals = 1,
-          .max_positionals = 1,
-          .options = kStandardSetOptions,
-          .acts = true,
-          .named = true,
-          .summary = "Sets the standard of a case: what its consultants did so far, frozen; by a director.",
-          .run = &run_standard_set};
+  return {
+      .name = "standard set",
+      .positionals = "CASE",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kStandardSetOptions,
+      .acts = true,
+      .named = true,
+      .summary = "Sets the standard of a case: what its consultants have achieved so far, frozen; by a director.",
+      .run = &run_standard_set};
 }
 
 Command standard_show_command() {
@@ -82,7 +83,7 @@ Command standard_show_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kStandardShowOptions,
-          .summary = "Prints the standards of a case, the newest first: of each task that is the one in force.",
+          .summary = "Prints the standards of a case, newest first: for each task the newest is in force.",
           .run = &run_standard_show};
 }
 

@@ -79,7 +79,7 @@ int run_user_passwd(const Arguments& arguments) {
 
 int run_user_level(const Arguments& arguments) {
   const auto level = level_of(arguments);
-  if (!level) throw UsageError("--level is needed");
+  if (!level) throw UsageError("--level is missing");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
@@ -137,7 +137,7 @@ int run_user_reset(const Arguments& arguments) {
 }
 
 constexpr Option kLevelOption{"--level", "student|trainee|consultant",
-                              "who somebody is from now on: attempts of consultants set the standard"};
+                              "the person's level from now on: attempts of consultants set the standard"};
 
 constexpr Option kRoleOption{"--role", "trainee|mentor|researcher|director|admin", "the role"};
 constexpr Option kUserAddOptions[] = {kLibrary, kRoleOption, kLevelOption, kNewLibrary};
@@ -177,31 +177,29 @@ Command user_passwd_command() {
 }
 
 Command user_invite_command() {
-  return {
-      .name = "user invite",
-      .positionals = "NAME",
-      .min_positionals = 1,
-      .max_positionals = 1,
-      .options = kUserInviteOptions,
-      .acts = true,
-      .summary =
-          "Adds an account without a password, and prints a link with which its owner sets one, once and within "
-          "seven days.",
-      .run = &run_user_invite};
+  return {.name = "user invite",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kUserInviteOptions,
+          .acts = true,
+          .summary =
+              "Adds an account without a password, and prints a link with which its owner sets one; it works once, "
+              "within seven days.",
+          .run = &run_user_invite};
 }
 
 Command user_reset_command() {
-  return {
-      .name = "user reset",
-      .positionals = "NAME",
-      .min_positionals = 1,
-      .max_positionals = 1,
-      .options = kUserResetOptions,
-      .acts = true,
-      .summary =
-          "Prints a link with which somebody sets their password anew, once and within a day; the old one holds "
-          "until then.",
-      .run = &run_user_reset};
+  return {.name = "user reset",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kUserResetOptions,
+          .acts = true,
+          .summary =
+              "Prints a link with which somebody sets a new password; it works once, within a day. The old "
+              "password is valid until then.",
+          .run = &run_user_reset};
 }
 
 Command user_level_command() {
@@ -211,7 +209,7 @@ Command user_level_command() {
           .max_positionals = 1,
           .options = kUserLevelOptions,
           .acts = true,
-          .summary = "Sets who somebody is from now on; earlier attempts count as before.",
+          .summary = "Sets somebody's level from now on; earlier attempts count as before.",
           .run = &run_user_level};
 }
 
@@ -222,7 +220,9 @@ Command user_disable_command() {
           .max_positionals = 1,
           .options = kLibraryOnly,
           .acts = true,
-          .summary = "Closes an account, which ends its sessions; its attempts stay. The last admin stays open.",
+          .summary =
+              "Closes an account, which ends its sessions; its attempts stay. The last admin's account cannot be "
+              "closed.",
           .run = [](const Arguments& arguments) { return enable(arguments, false); }};
 }
 
@@ -257,7 +257,7 @@ Command user_role_command() {
           .max_positionals = 1,
           .options = kUserRoleOptions,
           .acts = true,
-          .summary = "Changes a role and ends the person's sessions; the last admin stays one.",
+          .summary = "Changes a person's role and ends their sessions; the last admin stays an admin.",
           .run = &run_user_role};
 }
 

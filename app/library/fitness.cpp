@@ -33,11 +33,11 @@ Fitness fitness_of(const Machine& machine) {
     }
     if (fit == fitness.fit) fitness.why.push_back(why);
   };
-  if (machine.software) add(Fit::slowly, "pictures are drawn by the processor: no graphics card for OpenGL 4.3");
+  if (machine.software) add(Fit::slowly, "the processor draws the pictures: no graphics card for OpenGL 4.3");
   if (machine.cores > 0 && machine.cores < kLeastCores)
-    add(Fit::slowly, "one processor core, which hands and pictures share");
+    add(Fit::slowly, "one processor core, shared by hands and pictures");
   if (!machine.display) add(Fit::no, "there is no display to open the window on");
-  if (!machine.gl) add(Fit::no, "OpenGL 4.3 cannot be had");
+  if (!machine.gl) add(Fit::no, "OpenGL 4.3 is not available");
   if (machine.disk_free_mb && *machine.disk_free_mb < kLeastFreeMb)
     add(Fit::no, std::to_string(std::lround(*machine.disk_free_mb)) + " MB are free for attempts, of " +
                      std::to_string(std::lround(kLeastFreeMb)) + " that one of ten minutes may take");

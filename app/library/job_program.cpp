@@ -44,7 +44,7 @@ std::string without_places(std::string text, const web::Job& job, const fs::path
 // What it said of why not: from the first "error: " on, without that word and the code.
 std::string reason_of(const ChildEnd& end) {
   const std::size_t at = end.errors.find(kError);
-  if (at == end.errors.npos) return "It ended without a word.";
+  if (at == end.errors.npos) return "It ended without a message.";
   const std::string text = end.errors.substr(at + kError.size());
   const std::size_t colon = text.find(": ");
   return colon == text.npos || colon > text.find('\n') ? text : text.substr(colon + 2);

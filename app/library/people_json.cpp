@@ -76,7 +76,7 @@ std::string json_of_given_facts(const std::vector<casedb::FactGiven>& facts) {
 void warn_of_what_is_left(const casedb::Erased& erased) {
   if (!erased.overwritten)
     std::fputs(
-        "Another program has the library open: its log still holds old bytes until the last one closes it.\n",
+        "Another program has the library open: until the last program closes it, its log still holds old bytes.\n",
         stderr);
   if (erased.kept_copies > 0)
     std::fprintf(stderr,

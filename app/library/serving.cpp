@@ -30,7 +30,7 @@ void on_signal(int) {
 void keep_memory_to_itself() {
   const rlimit none{0, 0};
   if (::setrlimit(RLIMIT_CORE, &none) != 0 || ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0)
-    throw base::Failure("memory", "the system does not let this process keep its memory to itself");
+    throw base::Failure("memory", "the system does not let this process protect its memory from others");
 }
 
 base::Result<void> can_serve(const ServeAt& at) {

@@ -25,7 +25,7 @@ int run_render(const Arguments& arguments) {
   if (!scene) return refuse(error_of("SCENE.json", arguments.positional(0), scene.error()));
   if (scene->room) {
     file_of("--out of a room", arguments.text("--out"), {".png"});
-    if (backend == "cpu" || backend == "reference") throw UsageError("a room is drawn by --backend gpu alone");
+    if (backend == "cpu" || backend == "reference") throw UsageError("a room can only be drawn with --backend gpu");
     const auto room = paint_room(*scene, library_folder_if_any(arguments).string());
     if (!room) return refuse(room.error());
     write_file(out, png_from_rgb(room->rgb, room->width_px, room->height_px));
@@ -71,7 +71,7 @@ Command render_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kRenderOptions,
-          .summary = "Renders a scene's view (mpr, xray, ultrasound, room).",
+          .summary = "Renders a view of a scene (mpr, xray, ultrasound, room).",
           .run = &run_render};
 }
 

@@ -55,7 +55,7 @@ int run_sheet(const Arguments& arguments) {
 }
 
 constexpr Option kSheetOptions[] = {
-    {"--out", "FILE.html", "the page"}, {"--backend", "gpu|cpu|reference", "as of render"}, kLibrary};
+    {"--out", "FILE.html", "the page"}, {"--backend", "gpu|cpu|reference", "as for `seldinger render`"}, kLibrary};
 
 }  // namespace
 

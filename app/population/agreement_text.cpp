@@ -46,12 +46,12 @@ void add_levels(const std::vector<LevelAgreement>& levels, std::string& text) {
     text += "\n";
   };
   using Level = const population::Agreement&;
-  row("attempts that it does not know", [](Level one) { return one.attempts; });
+  row("attempts it was not fitted to", [](Level one) { return one.attempts; });
   row("metrics", [](Level one) { return one.metrics.size(); });
   // Found, what a surrogate without fault would have beside it, and those beyond chance.
   const auto off_rows = [&](const char* what, std::size_t population::Off::*which) {
     row(what, [&](Level one) { return one.off.*which; });
-    text += "| of a surrogate without fault: the middle of " + std::to_string(population::Agreement::kFaultless) +
+    text += "| for a faultless surrogate: the median of " + std::to_string(population::Agreement::kFaultless) +
             " checks (at most) |";
     for (const LevelAgreement& one : levels)
       add_line(text, " %zu (%zu) |", one.agreement.off_without_fault.*which,
@@ -60,11 +60,11 @@ void add_levels(const std::vector<LevelAgreement>& levels, std::string& text) {
     row("found beyond 3 standard errors, too", [&](Level one) { return one.beyond_chance.*which; });
   };
   off_rows("metrics with a quantile (10, 50, 90 %) off by more than .1 SD", &population::Off::quantiles);
-  error_row("root mean square of what is off beyond chance, SD", [](Level one) { return one.quantile_own_sd; });
+  error_row("root mean square error beyond chance, SD", [](Level one) { return one.quantile_own_sd; });
   off_rows("shares of nulls and zeros off by more than 3 points", &population::Off::shares);
   row("pairs of metrics", [](Level one) { return one.pairs; });
   off_rows("pairs with a rank correlation off by more than .1", &population::Off::pairs);
-  error_row("root mean square of what is off beyond chance", [](Level one) { return one.rank_correlation_own; });
+  error_row("root mean square error beyond chance", [](Level one) { return one.rank_correlation_own; });
 }
 
 void add_worst(const LevelAgreement& level, std::string& text) {
@@ -89,8 +89,8 @@ void add_effects(const GroupsAgreement& groups, std::string& text) {
            groups.more.c_str(), groups.less.c_str(), effects_off(groups), groups.effects.size());
   if (groups.effects.empty()) return;
   const auto& paired = most_paired(groups);
-  add_line(text, "People of the same number in both: the largest rank correlation is %+.2f (`%s`).\n", paired.pairs,
-           paired.metric.c_str());
+  add_line(text, "People with the same number in both: the largest rank correlation is %+.2f (`%s`).\n",
+           paired.pairs, paired.metric.c_str());
   text +=
       "\n| metric | area, whole | drawn | d, whole | drawn | furthest, in standard errors "
       "|\n|---|---|---|---|---|---|\n";
@@ -134,17 +134,15 @@ Verdict verdict_of(const SurrogateAgreement& agreement) {
 
 std::string text_of_agreement(const SurrogateAgreement& agreement) {
   std::string text =
-      "Simulated, nothing here is about people: what the surrogate draws, beside attempts simulated "
-      "whole.\n\n";
+      "Simulated, nothing here is about people: what the surrogate draws, beside fully simulated attempts.\n\n";
   add_levels(agreement.levels, text);
   for (const LevelAgreement& one : agreement.levels) add_worst(one, text);
   for (const GroupsAgreement& one : agreement.effects) add_effects(one, text);
   const Verdict verdict = verdict_of(agreement);
-  add_line(
-      text,
-      "\nIn one check of twenty, chance alone takes the furthest of %zu comparisons %.1f standard errors or more "
-      "beyond its bound (Bonferroni); here it is %.1f: ",
-      verdict.comparisons, verdict.allowed_errors, verdict.furthest_errors);
+  add_line(text,
+           "\nIn one check in twenty, chance alone puts the furthest of %zu comparisons %.1f standard errors or "
+           "more beyond its bound (Bonferroni); here it is %.1f: ",
+           verdict.comparisons, verdict.allowed_errors, verdict.furthest_errors);
   text += verdict.within_chance() ? "within chance.\n" : "the surrogate is off.\n";
   return text;
 }

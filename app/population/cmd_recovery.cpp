@@ -248,13 +248,12 @@ int run_recovery(const Arguments& arguments) {
     return refuse(by.error());
   const KnownPeople known = known_people(*library);
   if (known.empty())
-    return refuse({"no_attempt", "there are no attempts of simulated novices, intermediates or experts here"});
+    return refuse({"no_attempt", "there are no attempts by simulated novices, intermediates or experts here"});
   const reports::CaseReport report = reports::case_report_of(*library, casedb::Learners::simulated, kVersion);
   const std::string others = std::to_string(asked.truth) + " others of the same group";
   RecoverySection difficulty{
       "How hard cases are",
-      "The share that passes at the first attempt, with the interval of the report of cases, "
-      "beside the share of " +
+      "The share that passes at the first attempt, with the interval from the case report, beside the share of " +
           others + ".",
       {}},
       cuts{"Cuts between novices and experts",
@@ -285,9 +284,9 @@ int run_recovery(const Arguments& arguments) {
 constexpr Option kRecoveryOptions[] = {
     kLibrary,
     {"--truth", "N",
-     "attempts that tell what is true of a group or a learner, simulated and not stored; default 100"},
-    {"--learners", "N", "at most so many learners of each case, of those with 12 attempts or more; default 12"},
-    {"--seed", "N", "of the others who tell what is true; default 1000001"},
+     "attempts, simulated and not stored, that give the true value for a group or a learner; default 100"},
+    {"--learners", "N", "at most this many learners for each case, of those with 12 attempts or more; default 12"},
+    {"--seed", "N", "for the other people, who give the true values; default 1000001"},
     {"--jobs", "N", "threads; default one for each core. The results are the same"}};
 
 }  // namespace
@@ -297,7 +296,7 @@ Command recovery_command() {
           .options = kRecoveryOptions,
           .acts = true,
           .summary =
-              "Holds what reports find in a library's simulated people against what was planted in them: "
+              "Compares what reports find in a library's simulated people with what was planted in them: "
               "difficulty, rates, plateaus, severity (docs/simulated-people.md).",
           .run = &run_recovery};
 }

@@ -84,7 +84,8 @@ int run_study_simulate(const Arguments& arguments) {
   auto plan = study::plan_from_json(*text);
   if (!plan) return refuse(plan.error());
   if (auto problems = study::problems_of(*plan); !problems.empty())
-    return refuse({"bad_study_plan", "the plan asks for what is not measured today", std::move(problems)});
+    return refuse(
+        {"bad_study_plan", "the plan asks for something that is not measured today", std::move(problems)});
   plan->people = study::People::simulated;  // whatever it is planned for: these are
   const population::World world = world_of(arguments, *plan);
   const auto studies = static_cast<std::size_t>(arguments.whole("--studies", 1000, 1, 1'000'000));
@@ -95,7 +96,7 @@ int run_study_simulate(const Arguments& arguments) {
   for (const auto* outcomes : {&plan->primary, &plan->secondary})
     for (const study::Outcome& one : *outcomes)
       if (one.case_id != surrogate->mark().case_id)
-        return refuse({"other_surrogate", "the surrogate is of another case than the plan's outcomes"});
+        return refuse({"other_surrogate", "the surrogate is for another case than the plan's outcomes"});
   if (arguments.has("--out"))
     if (const auto written =
             write_study(arguments.text("--out"), population::simulated_study(*plan, world, *surrogate, seed, 1));
@@ -110,18 +111,18 @@ int run_study_simulate(const Arguments& arguments) {
 }
 
 constexpr Option kSimulateOptions[] = {
-    {"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote of the plan's case"},
+    {"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote for the plan's case"},
     {"--shift", "GROUP=X",
-     "by how many standard deviations a group's abilities are shifted, or novice, intermediate, "
-     "expert; once for every group of the plan",
+     "shift of a group's abilities in standard deviations, or novice, intermediate, expert; once for every group "
+     "of the plan",
      true},
     {"--per-group", "N", "people in each group; default the plan's"},
     {"--studies", "N", "how many studies; default 1000"},
-    {"--sites", "N", "sites that people are dealt to; default 1"},
-    {"--devices", "N", "devices at each; default 1"},
-    {"--raters", "N", "who rate every attempt; default none"},
-    {"--seed", "N", "of everything that is drawn; default 1"},
-    {"--truth-people", "N", "of each group, to tell what is true; default 20000"},
+    {"--sites", "N", "sites among which people are divided; default 1"},
+    {"--devices", "N", "devices at each site; default 1"},
+    {"--raters", "N", "raters, who rate every attempt; default none"},
+    {"--seed", "N", "for everything that is drawn at random; default 1"},
+    {"--truth-people", "N", "people in each group that give the true value; default 20000"},
     {"--out", "DIR", "a new folder for the first study's people, metrics, ratings and answers as CSV"},
     kJson};
 
@@ -133,7 +134,7 @@ Command study_simulate_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kSimulateOptions,
-          .summary = "Does a plan's analysis in thousands of simulated studies: power, size, coverage, width.",
+          .summary = "Runs a plan's analysis in thousands of simulated studies: power, size, coverage, width.",
           .run = &run_study_simulate};
 }
 

@@ -99,7 +99,7 @@ base::Result<population::Surrogate> fitted_from_files(const Arguments& arguments
     if (const std::string differs = difference(*mark, part->mark()); !differs.empty())
       return base::Error{"other_surrogate", "the attempts of " + shown(file) + " are of " + differs};
     if (!population::add_once(part->attempts(), points))
-      return base::Error{"other_surrogate", "one attempt is in two files, and differs: " + shown(file)};
+      return base::Error{"other_surrogate", "one attempt is in two files, with different values: " + shown(file)};
   }
   return population::Surrogate::fit(std::move(*mark), std::move(points));
 }
@@ -118,7 +118,7 @@ int run_surrogate_fit(const Arguments& arguments) {
   if (arguments.has("--json"))
     std::fputs(json_of_fit(*surrogate).c_str(), stdout);
   else
-    std::printf("fitted to %zu simulated attempts; `seldinger surrogate check` tells how well\n",
+    std::printf("fitted to %zu simulated attempts; `seldinger surrogate check` shows how well\n",
                 surrogate->attempts().size());
   return kDone;
 }
@@ -203,25 +203,23 @@ int run_surrogate_effects(const Arguments& arguments) {
 constexpr Option kCase{"--case", "CASE", "the case"};
 constexpr Option kAgainst{
     "--against", "FILE.json",
-    "instead of simulating: what `seldinger surrogate fit --group` wrote of one group; may be "
-    "given many times",
+    "instead of simulating: what `seldinger surrogate fit --group` wrote for one group; may be given many times",
     true};
 constexpr Option kFile{"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote"};
 constexpr Option kJobs{"--jobs", "N", "threads; default one for each core. The results are the same"};
-constexpr Option kGroup{
-    "--group", "GROUP",
-    "who: novice, intermediate, expert or by how many standard deviations abilities are shifted; "
-    "may be given many times. Default: groups from -0.6 to 1.8",
-    true};
+constexpr Option kGroup{"--group", "GROUP",
+                        "who: novice, intermediate, expert, or a shift of abilities in standard deviations; may be "
+                        "given many times. Default: groups from -0.6 to 1.8",
+                        true};
 constexpr Option kFitOptions[] = {
     kLibrary,
     kCase,
-    {"--attempts", "N", "to fit it to; default 600"},
-    {"--seed", "N", "of the people; default 1"},
+    {"--attempts", "N", "how many to fit it to; default 600"},
+    {"--seed", "N", "decides who the people are; default 1"},
     kGroup,
     {"--shard", "I/N", "only the I-th of N parts of these attempts: N calls make them all, each once"},
     {"--from", "FILE.json",
-     "instead of simulating: what `seldinger surrogate fit` wrote of a part; may be given many times. An attempt "
+     "instead of simulating: what `seldinger surrogate fit` wrote for a part; may be given many times. An attempt "
      "that is in several of them counts once",
      true},
     kJobs,
@@ -231,39 +229,41 @@ constexpr Option kCheckOptions[] = {
     kLibrary,
     kCase,
     kFile,
-    {"--attempts", "N", "of each level, that it was not fitted to; default 500"},
-    {"--seed", "N", "of the people; default 1000001"},
-    {"--group", "GROUP", "who, as of `seldinger surrogate fit`; default novice, intermediate, expert", true},
+    {"--attempts", "N", "how many at each level, none of which it was fitted to; default 500"},
+    {"--seed", "N", "decides who the people are; default 1000001"},
+    {"--group", "GROUP", "who, as for `seldinger surrogate fit`; default novice, intermediate, expert", true},
     kAgainst,
     kJobs,
     kJson};
-constexpr Option kEffectsOptions[] = {kFile,
-                                      {"--people", "N", "drawn for each group; default 2000"},
-                                      {"--chart", "FILE.svg", "draw them, beside published ones, into a new file"},
-                                      kJson};
+constexpr Option kEffectsOptions[] = {
+    kFile,
+    {"--people", "N", "people drawn for each group; default 2000"},
+    {"--chart", "FILE.svg", "a new file with a chart of them beside published ones"},
+    kJson};
 
 }  // namespace
 
 Command surrogate_fit_command() {
-  return {.name = "surrogate fit",
-          .options = kFitOptions,
-          .acts = true,
-          .summary = "Fits a fast stand-in for simulated people's attempts at a case to attempts simulated whole.",
-          .run = &run_surrogate_fit};
+  return {
+      .name = "surrogate fit",
+      .options = kFitOptions,
+      .acts = true,
+      .summary = "Fits a surrogate, a fast stand-in for simulated attempts on a case, to fully simulated attempts.",
+      .run = &run_surrogate_fit};
 }
 
 Command surrogate_check_command() {
   return {.name = "surrogate check",
           .options = kCheckOptions,
           .acts = true,
-          .summary = "Holds a surrogate against attempts simulated whole that it was not fitted to.",
+          .summary = "Compares a surrogate with fully simulated attempts that it was not fitted to.",
           .run = &run_surrogate_check};
 }
 
 Command surrogate_effects_command() {
   return {.name = "surrogate effects",
           .options = kEffectsOptions,
-          .summary = "Tells how simulated novices and experts differ in each metric, beside published effects.",
+          .summary = "Shows how simulated novices and experts differ in each metric, beside published effects.",
           .run = &run_surrogate_effects};
 }
 

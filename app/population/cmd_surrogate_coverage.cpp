@@ -111,9 +111,8 @@ int run_surrogate_coverage(const Arguments& arguments) {
     return kDone;
   }
   std::printf(
-      "Simulated, nothing here is about people: %zu studies of %zu and %zu people a shift at `%s`, the truth of "
-      "%zu "
-      "in each group.\n\n",
+      "Simulated, nothing here is about people: %zu studies of %zu and %zu people a shift at `%s`, the true values "
+      "from %zu in each group.\n\n",
       options.studies, options.per_group, options.per_group, surrogate->mark().case_title.c_str(),
       options.truth_people);
   print_sum(doses, shifts);
@@ -125,13 +124,11 @@ int run_surrogate_coverage(const Arguments& arguments) {
 constexpr Option kCoverageOptions[] = {
     {"--surrogate", "FILE.json", "what `seldinger surrogate fit` wrote"},
     {"--shift", "X",
-     "by how many standard deviations abilities are shifted; may be given many times; default 0, 0.2, "
-     "0.5, 0.8, 1.2",
-     true},
+     "shift of abilities in standard deviations; may be given many times; default 0, 0.2, 0.5, 0.8, 1.2", true},
     {"--per-group", "N", "people in each group; default 30"},
     {"--studies", "N", "how many studies; default 2000"},
-    {"--truth-people", "N", "of each group, to tell what is true; default 1000000"},
-    {"--seed", "N", "of everything that is drawn; default 1"},
+    {"--truth-people", "N", "people in each group that give the true value; default 1000000"},
+    {"--seed", "N", "for everything that is drawn at random; default 1"},
     kJson};
 
 }  // namespace
@@ -140,8 +137,8 @@ Command surrogate_coverage_command() {
   return {.name = "surrogate coverage",
           .options = kCoverageOptions,
           .summary =
-              "Tells each metric's area under the ROC curve by how far abilities are shifted, and how often a "
-              "study's interval holds it.",
+              "Estimates each metric's area under the ROC curve for each shift of abilities, and how often a "
+              "study's interval contains it.",
           .run = &run_surrogate_coverage};
 }
 

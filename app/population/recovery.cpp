@@ -130,8 +130,8 @@ std::size_t RecoverySection::with_interval() const {
 
 RecoverySection plateaus_recovered(const std::string& metric, const std::vector<LearnersCourse>& courses) {
   RecoverySection section{"Where a learner levels off: " + metric,
-                          "The plateau of the learner's report, beside the mean of attempts of the same person who "
-                          "has nothing left to learn.",
+                          "The plateau in the learner's report, beside the mean of attempts by the same person "
+                          "with nothing left to learn.",
                           {}};
   for (const LearnersCourse& one : courses) {
     const MeanAndError planted = mean_and_error(one.practised_values);
@@ -144,8 +144,8 @@ RecoverySection plateaus_recovered(const std::string& metric, const std::vector<
 
 RecoverySection rates_recovered(const std::string& metric, const std::vector<LearnersCourse>& courses) {
   RecoverySection section{"How fast a learner learns: " + metric,
-                          "The rate b of the exponential curve, beside the planted one: of what is left an attempt "
-                          "takes 1 − exp(−b).",
+                          "The rate b of the exponential curve, beside the planted one: each attempt removes a "
+                          "share 1 − exp(−b) of what is left.",
                           {}};
   for (const LearnersCourse& one : courses) {
     if (!(one.practice.ceiling > 0.0)) continue;
@@ -157,11 +157,10 @@ RecoverySection rates_recovered(const std::string& metric, const std::vector<Lea
 }
 
 RecoverySection pooled_recovered(const std::string& metric, const std::vector<LearnersCourse>& courses) {
-  RecoverySection section{
-      "All learners as one: " + metric,
-      "One curve through the mean of all learners at each attempt. The planted rate is that of an "
-      "exponential through the mean of what practice added to them.",
-      {}};
+  RecoverySection section{"All learners as one: " + metric,
+                          "One curve through the mean of all learners at each attempt. The planted rate is that of "
+                          "an exponential through the mean of what practice added.",
+                          {}};
   std::size_t attempts = 0;
   for (const LearnersCourse& one : courses) attempts = std::max(attempts, one.values.size());
   std::vector<double> t, gains, means(attempts, std::numeric_limits<double>::quiet_NaN());
@@ -195,14 +194,13 @@ RecoverySection pooled_recovered(const std::string& metric, const std::vector<Le
 
 RecoverySection severities_recovered(const std::vector<population::Person>& people, std::size_t sets,
                                      std::size_t raters, std::size_t many, std::uint64_t seed) {
-  RecoverySection section{
-      "How severe raters are",
-      "Severity in logits by the many-facet rating scale model, each rater with each person once, "
-      "beside what the model finds of the same raters and " +
-          std::to_string(many) +
-          " other people. Raters have a halo: items of one rating hang together more than the "
-          "model supposes, so its intervals are too narrow.",
-      {}};
+  RecoverySection section{"How severe raters are",
+                          "Severity in logits by the many-facet rating scale model, each rater with each person "
+                          "once, beside what the model finds for the same raters and " +
+                              std::to_string(many) +
+                              " other people. Raters have a halo: items of one rating are more alike than the "
+                              "model assumes, so its intervals are too narrow.",
+                          {}};
   std::vector<population::Person> others;
   for (std::size_t p = 0; p < many && !people.empty(); ++p)
     others.push_back(population::drawn_person(
@@ -238,7 +236,7 @@ std::string text_of_recovery(const std::string& of, const std::vector<RecoverySe
   std::string text =
       "# What reports find of what was planted\n\nMade by `seldinger recovery`. **SIMULATED:** nothing "
       "here is about people. " +
-      of + "\n\n| | intervals | that hold what was planted |\n|---|---|---|\n";
+      of + "\n\n| | intervals | that contain the planted value |\n|---|---|---|\n";
   for (const RecoverySection& one : sections)
     text +=
         "| " + one.title + " | " + std::to_string(one.with_interval()) + " of " +
@@ -250,9 +248,8 @@ std::string text_of_recovery(const std::string& of, const std::vector<RecoverySe
                    " %)") +
         " |\n";
   text +=
-      "\nIntervals are of 95 %. Where the planted number is itself simulated, its error widens the interval before "
-      "it "
-      "is asked.\n";
+      "\nIntervals are 95 % intervals. Where the planted number is itself simulated, its error widens the interval "
+      "before the comparison.\n";
   for (const RecoverySection& one : sections) {
     text += "\n## " + one.title + "\n\n" + one.words + "\n";
     if (!one.refused.empty()) text += "\nNot estimable:\n\n";

@@ -22,7 +22,8 @@ base::Result<void> note_export(casedb::Library& library, const casedb::Round& ro
   const auto& whose = library.actor().person_id;
   const bool draft = study && casedb::has_draft(library, *study);
   if (draft && whose && casedb::is_researcher_of(library, *study, *whose))
-    return base::Error{"blinded", "until the plan is frozen nobody who works on the study gets answers by group"};
+    return base::Error{"blinded",
+                       "until the plan is frozen nobody who works on the study may see answers by group"};
   casedb::audit_alone(library, casedb::Act::export_responses, {"round", round.round_id});
   if (study && casedb::has_plan(library, *study))
     casedb::note_look(library, *study, draft ? "questionnaire export before the freeze" : "questionnaire export",

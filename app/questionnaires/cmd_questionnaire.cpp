@@ -52,7 +52,7 @@ int run_questionnaire_list(const Arguments& arguments) {
     std::fputs(json_of_questionnaires(forms, rounds).c_str(), stdout);
     return kDone;
   }
-  if (forms.empty()) std::puts("There is no questionnaire yet; `seldinger questionnaire template` writes one.");
+  if (forms.empty()) std::puts("There are no questionnaires yet; `seldinger questionnaire template` writes one.");
   for (const casedb::StoredForm& one : forms)
     std::printf("%-24s version %d  %-5s %s\n", one.form.id.c_str(), one.form.version, one.form.language.c_str(),
                 one.form.title.c_str());
@@ -131,7 +131,7 @@ Command questionnaire_add_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Stores a questionnaire for good; what asks otherwise is another version.",
+          .summary = "Stores a questionnaire for good; different questions need a new version.",
           .run = &run_questionnaire_add};
 }
 

@@ -88,7 +88,7 @@ int run_questionnaire_import(const Arguments& arguments) {
   if (arguments.has("--json")) {
     std::fputs(json_of_entry(stored, differences).c_str(), stdout);
   } else if (differences.empty()) {
-    std::printf("%zu paper forms, typed twice alike\n", stored);
+    std::printf("%zu paper forms, typed identically twice\n", stored);
   } else {
     std::printf("Nothing was stored: the two entries differ in %zu places.\n", differences.size());
     for (const EntryDifference& one : differences)
@@ -104,7 +104,7 @@ int run_questionnaire_export(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto round = round_to_read(*library, arguments);
   if (!round) return refuse(round.error());
-  if (round->rated) return refuse({"rated_round", "what raters said is exported by `rating export`"});
+  if (round->rated) return refuse({"rated_round", "`rating export` exports what raters said"});
   const auto responses = casedb::list_responses(*library, round->code);
   if (!responses) return refuse(responses.error());
   if (const auto noted = note_export(*library, responses->round, responses->sets.size()); !noted)
@@ -115,16 +115,15 @@ int run_questionnaire_export(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kOpenOptions[] = {
-    kLibrary,
-    {"--title", "TEXT", "what the occasion is called, as respondents read it"},
-    {"--version", "N", "of this version; default: the newest"},
-    {"--group", "NAME", "a group that respondents choose from; two to six", true},
-    {"--study", "STUDY", "answers are of this study: its researchers read them"},
-    {"--at-desk", nullptr,
-     "asked in the window of whoever has made an attempt since, of a study those who "
-     "consent to it; once each"},
-    kJson};
+constexpr Option kOpenOptions[] = {kLibrary,
+                                   {"--title", "TEXT", "what the occasion is called, as respondents read it"},
+                                   {"--version", "N", "of this version; default: the newest"},
+                                   {"--group", "NAME", "a group that respondents choose from; two to six", true},
+                                   {"--study", "STUDY", "answers belong to this study: its researchers read them"},
+                                   {"--at-desk", nullptr,
+                                    "asked in the window, once, of everybody who has made an attempt since (for a "
+                                    "study: of those who consent to it)"},
+                                   kJson};
 constexpr Option kExportOptionsOfRound[] = {
     kLibrary,
     {"--out", "FILE.csv", "the file"},
@@ -150,7 +149,7 @@ Command questionnaire_close_command() {
           .max_positionals = 1,
           .options = kLibraryOnly,
           .acts = true,
-          .summary = "Closes a round: nobody begins or goes on from now on.",
+          .summary = "Closes a round: nobody can begin or continue answering.",
           .run = &run_questionnaire_close};
 }
 
@@ -162,7 +161,7 @@ Command questionnaire_import_command() {
           .options = kLibraryJson,
           .acts = true,
           .summary =
-              "Takes in paper forms that two people have typed; where the two differ it lists every place and "
+              "Imports paper forms that two people have typed in; if the two differ it lists every difference and "
               "stores nothing.",
           .run = &run_questionnaire_import};
 }

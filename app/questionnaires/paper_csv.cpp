@@ -26,7 +26,7 @@ char separator_of(const std::string& text) {
 base::Result<void> check_header(const std::vector<std::string>& header, const questionnaire::Form& form) {
   std::set<std::string> seen;
   for (const std::string& column : header) {
-    if (!seen.insert(column).second) return bad_paper("a column stands there twice");
+    if (!seen.insert(column).second) return bad_paper("a column is there twice");
     const bool known = column == "respondent" || column == "version" || column == "group" || column == "language" ||
                        form.find_item(column) != nullptr;
     if (!known)
@@ -55,9 +55,9 @@ base::Result<std::vector<casedb::PaperForm>> paper_forms_in_csv(const std::strin
   const std::string body = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
   CsvRecords records(body, separator_of(body));
   std::vector<std::string> header, cells;
-  if (!records.next(header)) return bad_paper("the file holds no line of column names");
+  if (!records.next(header)) return bad_paper("the file has no line of column names");
   if (const auto fit = check_header(header, form); !fit) return fit.error();
-  base::Error error{"bad_csv", "some rows are not as they should be"};
+  base::Error error{"bad_csv", "some rows are wrong"};
   std::vector<casedb::PaperForm> papers;
   std::set<std::string> people;
   for (std::size_t row = 1; records.next(cells) && error.findings.size() < kMostFaults; ++row) {
@@ -79,14 +79,14 @@ base::Result<std::vector<casedb::PaperForm>> paper_forms_in_csv(const std::strin
       else if (header[i] != "version")
         paper.typed.emplace(header[i], cells[i]);
       else if (cells[i] != std::to_string(form.version))
-        bad("is of another version than version " + std::to_string(form.version) + ", which the round asks");
+        bad("has another version than version " + std::to_string(form.version) + ", which the round uses");
     }
-    if (!people.insert(paper.respondent.code).second) bad("is of a respondent who stands in an earlier row");
+    if (!people.insert(paper.respondent.code).second) bad("is for a respondent who is in an earlier row");
     papers.push_back(std::move(paper));
   }
   if (records.fault() != nullptr) return bad_paper(records.fault());
   if (!error.findings.empty()) return error;
-  if (papers.empty()) return bad_paper("the file holds nobody's answers");
+  if (papers.empty()) return bad_paper("the file holds no answers");
   return papers;
 }
 

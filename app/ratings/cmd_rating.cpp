@@ -34,8 +34,8 @@ std::string answer_text(const assessment::statistics::Answer& answer) {
 }
 
 void print_agreement(const std::string& item_id, const rated::Agreement& agreement) {
-  std::printf("\n%s: %zu ratings of %zu replays that have all theirs\n", item_id.empty() ? "mean" : item_id.c_str(),
-              agreement.ratings, agreement.one.n);
+  std::printf("\n%s: %zu ratings of %zu replays whose ratings are complete\n",
+              item_id.empty() ? "mean" : item_id.c_str(), agreement.ratings, agreement.one.n);
   std::printf("  ICC of one rating %s, of a replay's mean %s\n", answer_text(agreement.one).c_str(),
               answer_text(agreement.mean).c_str());
   if (!item_id.empty()) std::printf("  quadratic kappa %s\n", answer_text(agreement.kappa).c_str());
@@ -68,7 +68,7 @@ int run_rating_show(const Arguments& arguments) {
               ratings->round.form_id.c_str(), ratings->round.version, ratings->ratings.size(), ratings->asked);
   if (ratings->ratings.empty()) return kDone;  // nothing to agree on yet
   if (const std::size_t simulated = casedb::count_simulated(*ratings); simulated > 0)
-    std::printf("SIMULATED: %zu of them are simulated raters'; they say nothing about people.\n", simulated);
+    std::printf("SIMULATED: %zu of them are by simulated raters; they say nothing about people.\n", simulated);
   for (const auto& [item_id, agreement] : agreements) print_agreement(item_id, agreement);
   return kDone;
 }
@@ -89,7 +89,7 @@ int run_rating_export(const Arguments& arguments) {
 constexpr Option kRatingExportOptions[] = {
     kLibrary,
     {"--out", "FILE.csv", "the file: a line for each rating, as `seldinger stats` takes it"},
-    {"--all", nullptr, "also the calibration set and what was rated twice; the column part tells them apart"}};
+    {"--all", nullptr, "also the calibration set and the repeated ratings; the column part tells them apart"}};
 
 }  // namespace
 
@@ -101,8 +101,8 @@ Command rating_show_command() {
           .options = kLibraryJson,
           .acts = true,
           .summary =
-              "How far raters agree by now: with each other, known scores and themselves; how severe each is, "
-              "and whether that drifts.",
+              "Shows how far raters agree so far: with each other, with known scores and with themselves; how "
+              "severe each is, and whether that drifts.",
           .run = &run_rating_show};
 }
 
@@ -113,7 +113,7 @@ Command rating_export_command() {
           .max_positionals = 1,
           .options = kRatingExportOptions,
           .acts = true,
-          .summary = "Writes what raters, by their pseudonyms, said of which attempt.",
+          .summary = "Writes how each rater, by pseudonym, rated each attempt.",
           .run = &run_rating_export};
 }
 

@@ -49,7 +49,7 @@ base::Result<std::vector<casedb::AttemptRow>> attempts_to_rate(casedb::Library& 
   rows.erase(std::unique(rows.begin(), rows.end(),
                          [](const auto& a, const auto& b) { return a.attempt_id == b.attempt_id; }),
              rows.end());
-  if (rows.empty()) return base::Error{"bad_design", "no attempt is to be rated"};
+  if (rows.empty()) return base::Error{"bad_design", "there is no attempt to rate"};
   return rows;
 }
 
@@ -59,7 +59,9 @@ base::Result<void> may_hand_out(casedb::Library& library, const Arguments& argum
   if (const auto by = acting_on(library, arguments, casedb::Action::see_attempt, row.person_id); !by)
     return by.error();
   if (study_id && row.person_id && !casedb::people_asked(library, *study_id).contains(*row.person_id))
-    return base::Error{"no_consent", "whose attempt it is does not consent to the study, or is not whom it is of"};
+    return base::Error{
+        "no_consent",
+        "the person who made it does not consent to the study, or the study is not about such people"};
   return {};
 }
 
@@ -141,22 +143,22 @@ int run_rating_open(const Arguments& arguments) {
   std::printf("%s: %zu to rate, %zu to calibrate\n", opened->round.code.c_str(), made.replays.size(),
               made.calibration.size());
   for (std::size_t i = 0; i < opened->keys.size(); ++i) std::printf("R%zu  %s\n", i + 1, opened->keys[i].c_str());
-  std::puts("Each rater types their key at /rate where `seldinger serve` runs. The keys are not told again.");
+  std::puts("Each rater types their key at /rate where `seldinger serve` runs. The keys are not shown again.");
   return kDone;
 }
 
 constexpr Option kRatingOpenOptions[] = {
     kLibrary,
-    {"--title", "TEXT", "what raters read; let it name no person, group or day"},
+    {"--title", "TEXT", "the title that raters read; it should not name a person, group or day"},
     {"--version", "N", "of this version of the form; default: the newest"},
-    {"--attempt", "ATTEMPT", "this attempt is rated", true},
+    {"--attempt", "ATTEMPT", "an attempt to be rated", true},
     {"--study", "STUDY",
-     "ratings are of this study; without --attempt or --cohort all that its consenting people made"},
-    {"--cohort", "COHORT", "what those who are in it now made"},
-    {"--case", "CASE", "only what was made at this case"},
-    {"--raters", "N", "so many raters, 1 to 12; default 2"},
-    {"--each", "N", "as many of them rate a replay; default 2"},
-    {"--repeats", "N", "so many replays a rater rates twice, at most a third of theirs; default 0"},
+     "ratings belong to this study; without --attempt or --cohort: every attempt of its consenting people"},
+    {"--cohort", "COHORT", "every attempt of its current members"},
+    {"--case", "CASE", "only attempts on this case"},
+    {"--raters", "N", "how many raters, 1 to 12; default 2"},
+    {"--each", "N", "how many of them rate each replay; default 2"},
+    {"--repeats", "N", "how many replays each rater rates twice, at most a third of theirs; default 0"},
     {"--known", "FILE.csv", "the calibration set: a column attempt, and one for each item with an agreed score"},
     kJson};
 
@@ -170,8 +172,8 @@ Command rating_open_command() {
           .options = kRatingOpenOptions,
           .acts = true,
           .summary =
-              "Draws replays without a word of whose they are, says who rates which, and prints the raters' "
-              "keys (docs/ratings.md).",
+              "Draws replays without saying whose they are, assigns them to raters, and prints the raters' keys "
+              "(docs/ratings.md).",
           .run = &run_rating_open};
 }
 

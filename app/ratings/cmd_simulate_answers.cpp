@@ -24,12 +24,12 @@ int run_simulate_answers(const Arguments& arguments) {
   if (arguments.has("--json"))
     std::fputs(json_of_simulated(*made).c_str(), stdout);
   else
-    std::printf("SIMULATED: %zu sets of answers sent; %zu were there already\n", made->sent, made->there);
+    std::printf("SIMULATED: %zu sets of answers sent; %zu already existed\n", made->sent, made->there);
   return kDone;
 }
 
 constexpr Option kAnswersOptions[] = {
-    kLibrary, {"--seed", "N", "of the raters: their severity, halo, drift and errors; default 1"}, kJson};
+    kLibrary, {"--seed", "N", "decides the raters' severity, halo, drift and errors; default 1"}, kJson};
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Command simulate_answers_command() {
           .max_positionals = 1,
           .options = kAnswersOptions,
           .acts = true,
-          .summary = "Lets simulated people of a study answer its questionnaire, or simulated raters rate replays.",
+          .summary = "Has a study's simulated people answer its questionnaire, or simulated raters rate replays.",
           .run = &run_simulate_answers};
 }
 

@@ -13,12 +13,12 @@ base::Result<std::vector<KnownRow>> known_in_csv(const std::string& text) {
   std::vector<std::string> header, cells;
   if (!records.next(header) || std::find(header.begin(), header.end(), "attempt") == header.end() ||
       std::set<std::string>(header.begin(), header.end()).size() != header.size())
-    return base::Error{"bad_csv", "the first line names the column attempt, and each item once"};
+    return base::Error{"bad_csv", "the first line must name the column attempt, and each item once"};
   std::vector<KnownRow> rows;
   while (records.next(cells)) {
     if (cells.size() != header.size())
       return base::Error{"bad_csv",
-                         "row " + std::to_string(rows.size() + 1) + " has another length than the header"};
+                         "row " + std::to_string(rows.size() + 1) + " does not have as many cells as the header"};
     KnownRow& row = rows.emplace_back();
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (header[i] == "attempt")

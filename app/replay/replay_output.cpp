@@ -29,7 +29,8 @@ std::string label_of(const casedb::AttemptRow& attempt) {
   return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "a person";
 }
 
-constexpr const char* kNotVerified = "Recorded by another step version: drawn as this one steps it, not verified.";
+constexpr const char* kNotVerified =
+    "Recorded by another version of the step: drawn with the present one, not verified.";
 
 bool is_comparable(const cases::Recording& recording) {
   return recording.step_version == engine::kStepVersion;
@@ -227,8 +228,9 @@ std::size_t draw_frames(const Scene& s, const cases::Recording& recording, sessi
 
 base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb::AttemptRow& attempt,
                                          const cases::Recording& recording) {
-  const base::Error cannot{"not_to_be_rated",
-                           "an attempt whose replay is not tick for tick what was recorded is not shown to raters"};
+  const base::Error cannot{
+      "not_to_be_rated",
+      "an attempt whose replay does not match its recording tick for tick cannot be shown to raters"};
   if (!is_comparable(recording)) return cannot;
   const auto s = scene_of(library, attempt, recording);
   if (!s) return s.error();
@@ -256,8 +258,7 @@ base::Result<reports::DrawnPictures> telling_pictures(casedb::Library& library, 
   const reports::ReplaySheet sheet =
       sheet_of(*s, *attempt, *recording, screen, is_comparable(*recording) ? "" : kNotVerified, replayed, true);
   if (!replayed.same && is_comparable(*recording))
-    return base::Error{"replay_differs",
-                       "the replay is not tick for tick what was recorded: nothing is drawn of it"};
+    return base::Error{"replay_differs", "the replay does not match the recording tick for tick: nothing is drawn"};
   return reports::moments_sheet(sheet);
 }
 

@@ -57,7 +57,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, int width_px, int height
   child_ = -1;
   ::close(pipe_);
   throw base::Failure("ffmpeg",
-                      "a film needs the program ffmpeg, which is not here: install it (Debian: apt-get "
+                      "a film needs the program ffmpeg, which is not installed: install it (Debian: apt-get "
                       "install ffmpeg), or give a folder for frames");
 }
 

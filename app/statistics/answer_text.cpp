@@ -49,7 +49,7 @@ std::string counts_of(const Answer& answer) {
   for (std::size_t i = 0; told && i < answer.groups.size(); ++i)
     text += (i == 0 ? " (" : ", ") + answer.groups[i].name + " " + std::to_string(answer.groups[i].n);
   if (told) text += ")";
-  if (answer.missing > 0) text += "; left out, as something is missing: " + std::to_string(answer.missing);
+  if (answer.missing > 0) text += "; left out because something is missing: " + std::to_string(answer.missing);
   return text;
 }
 

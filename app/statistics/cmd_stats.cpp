@@ -47,8 +47,8 @@ Command stats_command() {
           .max_positionals = 1,
           .options = kStatsOptions,
           .summary =
-              "Answers one statistical test from a CSV file: an estimate with its interval, or why there is "
-              "none. `seldinger help --statistics` lists the tests with their columns and options.",
+              "Runs one statistical test on a CSV file: an estimate with its interval, or why there is none. "
+              "`seldinger help --statistics` lists the tests with their columns and options.",
           .run = &run_stats};
 }
 

@@ -10,16 +10,15 @@
 namespace seldinger::app {
 
 inline constexpr Option kCsv{
-    "--csv", "FILE", "the data, a header and then one observation a line: UTF-8; empty, NA or NaN is missing"};
+    "--csv", "FILE", "the data, a header and then one observation per line: UTF-8; empty, NA or NaN is missing"};
 inline constexpr Option kValue{
-    "--value", "COL", "the column of numbers; where a test takes several, their names with commas between them"};
-inline constexpr Option kGroup{"--group", "COL", "to which group a line belongs"};
-inline constexpr Option kSubject{"--subject", "COL", "whose it is: the person is the unit"};
-inline constexpr Option kRater{"--rater", "COL", "who gave the value: a rater, a case, a judge"};
-inline constexpr Option kX{"--x", "COL",
-                           "a second column of numbers, as the test has it: occasion, dose, event, predictor"};
-inline constexpr Option kProcedureOptions{"--options", "k=v,…",
-                                          "what the test leaves to be chosen; a list of several words is a:b:c"};
+    "--value", "COL", "the column of numbers; where a test takes several, their names separated by commas"};
+inline constexpr Option kGroup{"--group", "COL", "the group of each line"};
+inline constexpr Option kSubject{"--subject", "COL", "the person of each line: the person is the unit"};
+inline constexpr Option kRater{"--rater", "COL", "who or what gave the value: a rater, a case, a judge"};
+inline constexpr Option kX{
+    "--x", "COL", "a second column of numbers, where the test needs one: occasion, dose, event, predictor"};
+inline constexpr Option kProcedureOptions{"--options", "k=v,…", "the test's options; write a list as a:b:c"};
 
 // "k=v,k=v" in words that the procedure knows; throws UsageError.
 assessment::statistics::ProcedureOptions options_for(const assessment::statistics::Procedure& procedure,

@@ -71,13 +71,13 @@ int run_report(const Arguments& arguments) {
 
 constexpr Option kReportOptions[] = {
     kLibrary,
-    {"--study", "STUDY", "of this study, for validity"},
+    {"--study", "STUDY", "the study, for validity"},
     {"--data", "DIR",
-     "also a new folder with the values that validity rests on, by person, and redo.R, which redoes its numbers in "
-     "R"},
-    {"--user", "NAME", "of this person, for learner"},
-    {"--case", "CASE", "of this case, for standard"},
-    {"--simulated", nullptr, "of simulated people, for learner and case; they never stand beside people"},
+     "also write a new folder with the values behind the validity report, by person, and redo.R, which recomputes "
+     "its numbers in R"},
+    {"--user", "NAME", "the person, for learner"},
+    {"--case", "CASE", "the case, for standard"},
+    {"--simulated", nullptr, "about simulated people, for learner and case; they are never mixed with real people"},
     {"--person", "GROUP-NUMBER", "which simulated person, for learner: novice-3"},
     {"--out", "FILE.html", "the file"}};
 
@@ -91,10 +91,10 @@ Command report_command() {
           .options = kReportOptions,
           .acts = true,
           .summary =
-              "Writes a report as one file that opens offline and prints. KIND: validity, of a study "
-              "(docs/studies.md), which is a look, and noted; learner, how somebody has learnt; case, how hard the "
-              "cases are, what they tell apart and how many a decision takes; standard, the cuts of a case (all "
-              "three docs/grading.md); or workshops, the thesis' own three (docs/questionnaires.md).",
+              "Writes a report as one file that opens offline and prints well. KIND: validity, of a study "
+              "(docs/studies.md), which is a look and recorded as one; learner, how somebody has learnt; case, how "
+              "hard the cases are, how well they discriminate and how many a decision needs; standard, the cuts of "
+              "a case (all three docs/grading.md); or workshops, the thesis' own three (docs/questionnaires.md).",
           .run = &run_report};
 }
 

@@ -30,7 +30,7 @@ int run_study_list(const Arguments& arguments) {
     std::fputs(json_of_studies(studies).c_str(), stdout);
     return kDone;
   }
-  if (studies.empty()) std::puts("There is no study yet; `seldinger study new` makes one.");
+  if (studies.empty()) std::puts("There are no studies yet; `seldinger study new` makes one.");
   for (const casedb::Study& one : studies)
     std::printf("%s  %-32s %s\n", one.study_id.c_str(), one.title.c_str(), reports::consent_text(one).c_str());
   return kDone;
@@ -51,7 +51,7 @@ int run_study_researcher(const Arguments& arguments) {
   return done ? kDone : refuse(done.error());
 }
 
-constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}};
+constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose, {"--end", nullptr, "end it from now on"}};
 
 }  // namespace
 
@@ -62,7 +62,7 @@ Command study_new_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Makes a study, to which people can consent.",
+          .summary = "Creates a study that people can consent to.",
           .run = &run_study_new};
 }
 
@@ -77,7 +77,7 @@ Command study_researcher_command() {
           .max_positionals = 1,
           .options = kStudyResearcherOptions,
           .acts = true,
-          .summary = "Lets a researcher see, as pseudonyms, those who consent to a study.",
+          .summary = "Lets a researcher see, under pseudonyms, the people who consent to a study.",
           .run = &run_study_researcher};
 }
 

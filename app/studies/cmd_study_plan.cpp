@@ -109,7 +109,7 @@ Enrolled enrol_all(casedb::Library& library, const casedb::StoredPlan& plan) {
 }
 
 int run_study_enrol(const Arguments& arguments) {
-  if (arguments.has("--user") == arguments.has("--all")) throw UsageError("--user or --all, one of the two");
+  if (arguments.has("--user") == arguments.has("--all")) throw UsageError("give either --user or --all");
   auto open = open_study(arguments, "STUDY", Action::enrol_in_study);
   if (!open) return refuse(open.error());
   const auto plan = casedb::find_plan(open->library, open->study.study_id);
@@ -117,9 +117,10 @@ int run_study_enrol(const Arguments& arguments) {
   Enrolled enrolled;
   if (arguments.has("--all")) {
     if (plan->plan.randomised)
-      throw UsageError("who is sent to an arm is enrolled one by one, as they come: --user");
+      throw UsageError("people assigned to an arm are enrolled one by one, as they come: --user");
     if (!plan->frozen())
-      return refuse({"plan_not_frozen", "people are enrolled when the plan is frozen (`seldinger study freeze`)"});
+      return refuse(
+          {"plan_not_frozen", "people can be enrolled once the plan is frozen (`seldinger study freeze`)"});
     enrolled = enrol_all(open->library, *plan);
   } else {
     const auto person = casedb::open_account(open->library, arguments.text("--user"));
@@ -151,7 +152,7 @@ void print_outcomes(const std::vector<assessment::study::Compared>& outcomes, do
       std::printf("  p (Holm) %s. %s\n", reports::p_text(one.p_adjusted).c_str(),
                   reports::verdict_text(one, alpha).c_str());
     else
-      std::puts("  exploratory: it bears no p and no conclusion");
+      std::puts("  exploratory: no p value and no conclusion");
   }
 }
 
@@ -165,8 +166,9 @@ int run_study_look(const Arguments& arguments) {
     if (arguments.has("--json"))
       std::fputs(json_of_blinded(*plan, counts).c_str(), stdout);
     else
-      std::printf("The plan is a draft, so nothing is told by group: %zu consent, %zu of them made %zu attempts.\n",
-                  counts.consenting, counts.with_attempts, counts.attempts);
+      std::printf(
+          "The plan is a draft, so nothing is shown by group: %zu consent, %zu of them made %zu attempts.\n",
+          counts.consenting, counts.with_attempts, counts.attempts);
     return kDone;
   }
   casedb::StudyData data = casedb::study_data(open->library, *plan);
@@ -182,7 +184,7 @@ int run_study_look(const Arguments& arguments) {
   if (!result.stopped) std::printf("An interim look: the plan stops at %d in each group.\n", plan->plan.per_group);
   print_outcomes(result.primary, plan->plan.alpha, true);
   print_outcomes(result.secondary, plan->plan.alpha, false);
-  std::puts("\nThis look is noted, and every report of the study prints it.");
+  std::puts("\nThis look is recorded, and every report of the study prints it.");
   return kDone;
 }
 
@@ -210,11 +212,12 @@ int run_study_deviate(const Arguments& arguments) {
   return done ? kDone : refuse(done.error());
 }
 
-constexpr Option kTemplateOptions[] = {
-    kLibrary, {"--case", "CASE", "the case that outcomes are measured at"}, {"--out", "FILE.json", "the new file"}};
+constexpr Option kTemplateOptions[] = {kLibrary,
+                                       {"--case", "CASE", "the case on which outcomes are measured"},
+                                       {"--out", "FILE.json", "the new file"}};
 constexpr Option kEnrolOptions[] = {kLibrary,
-                                    {"--user", "NAME", "whom"},
-                                    {"--all", nullptr, "everybody who consents, where groups are told by facts"},
+                                    {"--user", "NAME", "the person to enrol"},
+                                    {"--all", nullptr, "everybody who consents, where facts decide the group"},
                                     kJson};
 
 }  // namespace
@@ -223,8 +226,8 @@ Command study_template_command() {
   return {.name = "study template",
           .options = kTemplateOptions,
           .summary =
-              "Writes a plan to begin with: a valid draft, whose words that begin with REPLACE are replaced before "
-              "it is frozen (docs/studies.md).",
+              "Writes a plan to start from: a valid draft; replace the words that begin with REPLACE before it is "
+              "frozen (docs/studies.md).",
           .run = &run_study_template};
 }
 
@@ -235,7 +238,7 @@ Command study_plan_command() {
           .max_positionals = 2,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Stores the draft of a study's plan, in the place of an older draft.",
+          .summary = "Stores the draft of a study's plan, replacing an older draft.",
           .run = &run_study_plan};
 }
 
@@ -258,7 +261,8 @@ Command study_freeze_command() {
       .max_positionals = 1,
       .options = kLibraryJson,
       .acts = true,
-      .summary = "Freezes a study's plan for good; from then on people are enrolled and outcomes told by group.",
+      .summary =
+          "Freezes a study's plan for good; from then on people can be enrolled and outcomes are shown by group.",
       .run = &run_study_freeze};
 }
 
@@ -269,7 +273,8 @@ Command study_enrol_command() {
           .max_positionals = 1,
           .options = kEnrolOptions,
           .acts = true,
-          .summary = "Enrols who consents: by facts in a group, or by chance in an arm that nobody knew before.",
+          .summary =
+              "Enrols people who consent: in a group by their facts, or in a random arm that nobody knew before.",
           .run = &run_study_enrol};
 }
 
@@ -281,7 +286,8 @@ Command study_look_command() {
           .options = kLibraryJson,
           .acts = true,
           .summary =
-              "Does the planned analysis of a frozen plan and notes the look; of a draft, counts of all together.",
+              "Runs the analysis of a frozen plan and records the look; of a draft it shows only counts for "
+              "everybody together.",
           .run = &run_study_look};
 }
 
@@ -294,19 +300,20 @@ Command study_lock_command() {
           .acts = true,
           .summary =
               "Locks a study's data for good: attempts begun later are not analysed, and every report says whether "
-              "what it analyses is what was locked.",
+              "it analyses exactly what was locked.",
           .run = &run_study_lock};
 }
 
 Command study_deviate_command() {
-  return {.name = "study deviate",
-          .positionals = "STUDY TEXT",
-          .min_positionals = 2,
-          .max_positionals = 2,
-          .options = kLibraryOnly,
-          .acts = true,
-          .summary = "Notes what was done otherwise than planned; it is printed in every report and never edited.",
-          .run = &run_study_deviate};
+  return {
+      .name = "study deviate",
+      .positionals = "STUDY TEXT",
+      .min_positionals = 2,
+      .max_positionals = 2,
+      .options = kLibraryOnly,
+      .acts = true,
+      .summary = "Records what was done differently from the plan; it is printed in every report and never edited.",
+      .run = &run_study_deviate};
 }
 
 }  // namespace seldinger::app

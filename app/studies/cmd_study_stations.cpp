@@ -32,7 +32,8 @@ int run_study_stations(const Arguments& arguments) {
   const std::set<std::string> different(stations.begin(), stations.end());
   if (stations.size() < 2 || static_cast<long long>(stations.size()) > kMostStations ||
       different.size() != stations.size() || different.contains(""))
-    throw UsageError("--station is given two to " + std::to_string(kMostStations) + " times, each another name");
+    throw UsageError("give --station two to " + std::to_string(kMostStations) +
+                     " times, each with a different name");
   const auto people = static_cast<std::size_t>(arguments.whole("--people", 0, 1, kMostPeople));
   if (people == 0) throw UsageError("--people is missing");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, kMostSeed));
@@ -47,7 +48,7 @@ int run_study_stations(const Arguments& arguments) {
 
 constexpr Option kStationOptions[] = {
     {"--station", "NAME", "a station, by its case or task; two to twelve", true},
-    {"--people", "N", "so many people; person 1 is whom you say, once the table is drawn"},
+    {"--people", "N", "how many people; once the table is drawn, you say who is person 1"},
     {"--seed", "N", "draws rows and stations; default 1"},
     {"--out", "FILE.csv", "the file; else it is printed"}};
 
@@ -57,8 +58,8 @@ Command study_stations_command() {
   return {.name = "study stations",
           .options = kStationOptions,
           .summary =
-              "Who is at which station when, for a day on which everybody goes through all: Williams' Latin "
-              "squares, in which each station follows each other equally often.",
+              "Draws who is at which station when, for a day on which everybody goes through all of them: "
+              "Williams' Latin squares, in which each station follows each other one equally often.",
           .run = &run_study_stations};
 }
 

@@ -136,10 +136,10 @@ int run_workshop_close(const Arguments& arguments) {
 
 constexpr Option kWorkshopOpenOptions[] = {
     kLibrary,
-    {"--title", "TEXT", "what the day is called, as the board says it"},
+    {"--title", "TEXT", "the day's title, as the board shows it"},
     {"--case", "CASE", "a station: done by an attempt at this case; two to twelve stations in all", true},
-    {"--station", "NAME", "a station without a case, which is ticked", true},
-    {"--group", "NAME", "a group, in which orders are balanced apart; two to six", true},
+    {"--station", "NAME", "a station without a case, which is ticked off by hand", true},
+    {"--group", "NAME", "a group; orders are balanced within each group; two to six", true},
     kJson};
 constexpr Option kWorkshopAdmitOptions[] = {
     kLibrary,
@@ -148,7 +148,7 @@ constexpr Option kWorkshopAdmitOptions[] = {
     {"--consent", nullptr, "they have signed the study's consent at the door; it is stored with them"},
     kJson};
 constexpr Option kWorkshopTickOptions[] = {kLibrary,
-                                           {"--number", "N", "what somebody is on the board"},
+                                           {"--number", "N", "the person's number on the board"},
                                            {"--station", "NAME", "the station, one without a case"}};
 
 }  // namespace
@@ -161,8 +161,8 @@ Command workshop_open_command() {
           .options = kWorkshopOpenOptions,
           .acts = true,
           .summary =
-              "Opens a workshop's day: stations that everybody who comes goes through, each in an order of "
-              "their own; prints its code, which shows the board.",
+              "Opens a workshop day: stations that everybody goes through, each person in their own order; prints "
+              "its code, which opens the board.",
           .run = &run_workshop_open};
 }
 
@@ -174,7 +174,7 @@ Command workshop_admit_command() {
       .max_positionals = 1,
       .options = kWorkshopAdmitOptions,
       .acts = true,
-      .summary = "At the door: somebody who consents to the study gets a number and the order of their stations.",
+      .summary = "At the door: gives somebody who consents to the study a number and the order of their stations.",
       .run = &run_workshop_admit};
 }
 
@@ -185,7 +185,7 @@ Command workshop_tick_command() {
           .max_positionals = 1,
           .options = kWorkshopTickOptions,
           .acts = true,
-          .summary = "Notes that somebody has done a station without a case.",
+          .summary = "Records that somebody has done a station without a case.",
           .run = &run_workshop_tick};
 }
 
@@ -196,7 +196,7 @@ Command workshop_show_command() {
           .max_positionals = 1,
           .options = kLibraryJson,
           .acts = true,
-          .summary = "Who came, by number and pseudonym, what they have done, and when they are to come back.",
+          .summary = "Shows who came, by number and pseudonym, what they have done, and when they are due back.",
           .run = &run_workshop_show};
 }
 
@@ -207,7 +207,7 @@ Command workshop_close_command() {
           .max_positionals = 1,
           .options = kLibraryOnly,
           .acts = true,
-          .summary = "Closes a workshop's day: nobody is admitted from now on.",
+          .summary = "Closes a workshop day: nobody is admitted any more.",
           .run = &run_workshop_close};
 }
 

@@ -23,14 +23,15 @@ casedb::Subject nobodys() {
 base::Result<std::string> simulated_called(casedb::Library& library, const std::string& typed) {
   for (const casedb::SimulatedTruth& one : casedb::list_simulated_truths(library))
     if (one.group + "-" + std::to_string(one.number) == typed) return one.person_id;
-  return base::Error{"no_person", "there is no such simulated person: the group and a number, as novice-3"};
+  return base::Error{"no_person",
+                     "there is no such simulated person: give the group and a number, such as novice-3"};
 }
 
 }  // namespace
 
 base::Result<std::string> learner_report(const Arguments& arguments) {
   if (arguments.has("--user") == arguments.has("--simulated"))
-    throw UsageError("learner is of --user NAME, or with --simulated of --person GROUP-NUMBER");
+    throw UsageError("learner needs --user NAME, or --simulated with --person GROUP-NUMBER");
   const bool simulated = arguments.has("--simulated");
   const std::string called = arguments.required(simulated ? "--person" : "--user");
   auto library = open_acting(arguments);

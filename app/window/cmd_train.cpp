@@ -24,10 +24,9 @@ base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
   if (device != "mouse" && device != "haply" && device != "virtual")
     throw UsageError("--device is mouse, haply or virtual");
   for (const char* option : {"--device-host", "--device-port"})
-    if (device != "haply" && arguments.has(option))
-      throw UsageError(std::string(option) + " is for --device haply");
+    if (device != "haply" && arguments.has(option)) throw UsageError(std::string(option) + " needs --device haply");
   if (device == "mouse") {
-    if (arguments.has("--station")) throw UsageError("--station is for --device haply or virtual");
+    if (arguments.has("--station")) throw UsageError("--station needs --device haply or virtual");
     return std::optional<Arms>();
   }
   Arms arms;
@@ -105,36 +104,35 @@ int run_train(const Arguments& arguments) {
 
 constexpr Option kTrainOptions[] = {
     kLibrary,
-    {"--case", "CASE", "whoever logs in finds this case's briefing open"},
+    {"--case", "CASE", "opens this case's briefing after log-in"},
     {"--device", "mouse|haply|virtual",
      "what holds the tools: mouse, keys, gamepad and 3-D mouse; or two arms of a Haply Inverse service, and these "
-     "for what an arm does not hold; or two simulated arms that these lead, to try arms without any; default "
+     "for what an arm does not hold; or two simulated arms moved with these, to try arms without hardware; default "
      "mouse"},
     {"--device-host", "ADDRESS", "where the Haply Inverse service is; default 127.0.0.1"},
     {"--device-port", "N", "its port; default 10001"},
     {"--station", "FILE.json",
-     "whose arms are left and right, where they stand, and how they are set, as the device page (F10) keeps it; "
+     "which arm is left and which right, their positions and their settings, as the device page (F10) stores them; "
      "default with haply ~/.config/seldinger/station.json"},
     {"--station-name", "NAME",
-     "what this workstation is called in records, pages and exports; else SELDINGER_STATION of the environment, "
-     "else "
-     "“this computer”"},
+     "what this workstation is called in records, pages and exports; else the environment variable "
+     "SELDINGER_STATION, else “this computer”"},
     {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
     {"--backend", "gpu|cpu|auto",
-     "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},
-    {"--width", "PIXELS", "of the window, at least 800; as it was when it was closed, at first 1280"},
-    {"--height", "PIXELS", "of the window, at least 600; as it was when it was closed, at first 800"},
-    {"--whole-screen", nullptr, "without a frame; Alt+Enter changes it"},
+     "what computes the ultrasound picture; default auto: the GPU where GL has hardware"},
+    {"--width", "PIXELS", "width of the window, at least 800; default as last closed, at first 1280"},
+    {"--height", "PIXELS", "height of the window, at least 600; default as last closed, at first 800"},
+    {"--whole-screen", nullptr, "full screen, without a frame; Alt+Enter switches"},
     {"--letters", "SIZE",
-     "of letters and buttons, 0.75 to 2; 1 unless given. They grow with the window and the screen's dots too, and "
-     "as far as there is room"},
-    {"--mute", nullptr, "without sound, until M is pressed"},
-    {"--volume", "PERCENT", "of the sound; 70 unless given"},
-    {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},
+     "size of letters and buttons, 0.75 to 2; default 1. They also grow with the window and the screen's "
+     "resolution, as far as there is room"},
+    {"--mute", nullptr, "no sound until M is pressed"},
+    {"--volume", "PERCENT", "volume of the sound; default 70"},
+    {"--pictures", "DIR", "where F12 saves pictures of the window; default the working folder"},
     {"--words", "FILE|-",
-     "the words of each screen, and what has the keyboard's focus, for a screen reader: what is new of them, as it "
-     "comes; - is standard output"},
-    {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second and after each key"},
+     "for a screen reader: the words of each screen and the item with keyboard focus, as they change; - is "
+     "standard output"},
+    {"--trace", "FILE.jsonl", "logs screen, rates and lags, four times a second and after each key"},
 };
 
 }  // namespace

@@ -78,7 +78,7 @@ std::string words_of(const Trainer& trainer) {
     case TrainerScreen::editor:
       return "Case editor";
     case TrainerScreen::devices:
-      return "Hands at this desk";
+      return "Hand devices";
   }
   return "";
 }

@@ -39,13 +39,13 @@ struct PreparationRow {
 
 inline constexpr auto kPreparationRows = std::to_array<PreparationRow>({
     {&Preparation::clamp_low_hu, "clamp_low_hu", "--clamp-low", "HU",
-     "what is less becomes this, but for -1024, where nothing was measured; default -1024", "clamp from HU",
-     -1024.0, -500.0, 10.0},
-    {&Preparation::clamp_high_hu, "clamp_high_hu", "--clamp-high", "HU", "what is more becomes this; default 32767",
+     "lower values become this, except -1024, where nothing was measured; default -1024", "clamp from HU", -1024.0,
+     -500.0, 10.0},
+    {&Preparation::clamp_high_hu, "clamp_high_hu", "--clamp-high", "HU", "higher values become this; default 32767",
      "clamp to HU", 500.0, 32767.0, 100.0},
     {&Preparation::denoise, "denoise", "--denoise", "N",
-     "times that noise is diffused away, edges kept; default 0, 5 for a noisy CT", "denoise, times", 0.0, 30.0,
-     1.0},
+     "how many times noise is smoothed by diffusion, which keeps edges; default 0, 5 for a noisy CT",
+     "denoise, times", 0.0, 30.0, 1.0},
     {&Preparation::shrink_i, "shrink_i", "--shrink-i", "N", "voxels of a row averaged into one; default 1",
      "shrink rows by", 1.0, 8.0, 1.0},
     {&Preparation::shrink_j, "shrink_j", "--shrink-j", "N", "voxels of a column averaged into one; default 1",
@@ -57,9 +57,9 @@ inline constexpr auto kPreparationRows = std::to_array<PreparationRow>({
     {&Preparation::skin_grid_mm, "skin_grid_mm", "--skin-grid-mm", "MM",
      "grid of the skin: voxels are averaged up to about this; default 1.8", "skin's grid mm", 0.5, 10.0, 0.1, 1},
     {&Preparation::skin_smooth, "skin_smooth", "--skin-smooth", "N",
-     "terms of the filter that smooths the skin; default 15, 0: as it is cut", "smooth the skin", 0.0, 100.0, 5.0},
+     "terms of the filter that smooths the skin; default 15; 0: not smoothed", "smooth the skin", 0.0, 100.0, 5.0},
     {&Preparation::skin_decimate, "skin_decimate", "--skin-decimate", "SHARE",
-     "share of the skin's triangles that is taken away; default 0.7", "take triangles away", 0.0, 0.98, 0.05, 2},
+     "share of the skin's triangles that is removed; default 0.7", "take triangles away", 0.0, 0.98, 0.05, 2},
 });
 
 // `bad_preparation` with every value that is out of its bounds, not whole where it must be, or NaN; or where the

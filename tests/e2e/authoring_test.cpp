@@ -80,7 +80,7 @@ TEST_F(AuthoringCommands, TheSameCtOnceMoreIsToldAtTheImport) {
   const auto again = call("import " + (scratch_ / "ball.mha").string() + " --title Again");
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(
-      again.err.find("note: the library has this CT already, in case " + case_id_ + ", “Ball”, version 1 (draft)"),
+      again.err.find("note: the library already has this CT, in case " + case_id_ + ", “Ball”, version 1 (draft)"),
       std::string::npos)
       << again.err;
 }

@@ -28,7 +28,7 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string pattern = (fs::temp_directory_path() / "seldinger-bench-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw base::Failure("disk", "no temporary folder can be made");
+    if (::mkdtemp(pattern.data()) == nullptr) throw base::Failure("disk", "cannot make a temporary folder");
     path_ = pattern;
   }
   ~TemporaryFolder() {

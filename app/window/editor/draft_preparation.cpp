@@ -16,7 +16,7 @@ constexpr std::uint64_t kFirstNumber = 1'000'000'000;
 
 // Nobody waits for it any more, and nobody is told.
 base::Error left_off() {
-  return {"bad_preparation", "the preparation was left off"};
+  return {"bad_preparation", "the preparation was stopped"};
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ std::optional<base::Error> DraftPreparation::error() const {
 base::Result<std::string> DraftPreparation::keep(casedb::Library& library, const std::string& by) const {
   const auto made = newest();
   if (busy() || !made || !(made->settings == settings_))
-    return base::Error{"bad_preparation", "the CT is not prepared so yet"};
+    return base::Error{"bad_preparation", "the CT has not been prepared like this yet"};
   const cases::Case& scene = made->shown->scene;
   return casedb::add_prepared_copy(library, row_.case_id,
                                    {scene.volume, scene.skin, made->settings, made->warnings}, by);

@@ -38,7 +38,8 @@ std::string fire_words(const cases::Instrument& instrument) {
 }
 
 std::string fired_answer(const cases::Instrument& instrument) {
-  if (instrument.kind != cases::InstrumentKind::core) return "Said: “I am there”. Where the tip is now counts.";
+  if (instrument.kind != cases::InstrumentKind::core)
+    return "Said: “I am there”. The tip’s present position counts.";
   return "Fired: the tip was thrown " + whole_mm(instrument.throw_mm) + " on.";
 }
 
@@ -46,40 +47,40 @@ std::string said_words(const Said& said) {
   using cases::EventKind;
   switch (said.kind) {
     case EventKind::proceed:
-      return "Decided: the puncture is done now.";
+      return "Decided: the puncture goes ahead.";
     case EventKind::defer:
-      return "Decided: the puncture is not done now.";
+      return "Decided: the puncture is deferred.";
     case EventKind::probe_checked:
       return std::string("Probe checked: its marker’s side is the picture’s ") +
              (said.flipped ? "right." : "left.");
     case EventKind::note_plan:
       return said.planned_mm > 0.0
-                 ? "Entry noted, and the needle is planned to go in by " + whole_mm(said.planned_mm) + "."
-                 : "Entry noted; how deep the needle is to go is not set.";
+                 ? "Entry noted, with a planned needle depth of " + whole_mm(said.planned_mm) + "."
+                 : "Entry noted; the needle’s depth is not set.";
     case EventKind::aspirate:
       return said.needle_in ? "Aspirating through the needle …" : "Aspirated: no blood comes.";
     case EventKind::anaesthetic:
-      return "Local anaesthetic is given …";
+      return "Giving local anaesthetic …";
     case EventKind::nick:
-      return "The skin is nicked where the needle points at it.";
+      return "Skin nicked where the needle points.";
     case EventKind::stylet_out:
       if (said.core)
         return said.needle_in
-                   ? "The stylet is out. The introducer stays where it is, and the needle slides through it."
-                   : "The introducer is put aside.";
+                   ? "The stylet is out. The introducer stays in place, and the needle slides through it."
+                   : "The introducer is put down.";
       return "The stylet is out: watch what comes back.";
     case EventKind::stylet_in:
       if (said.core && said.needle_in)
         return said.introducer == haptics::Introducer::none
-                   ? "The needle is in tissue: draw it out before you take an introducer."
-                   : "The introducer’s stylet is in again: what you push now is the introducer.";
+                   ? "The needle is in tissue: withdraw it before you take an introducer."
+                   : "The introducer’s stylet is back in: you now push the introducer.";
       if (said.core)
         return said.introducer == haptics::Introducer::none
-                   ? "You now hold the introducer, its stylet in. It is wider than the needle."
-                   : "The introducer is out again, its stylet in.";
-      return "The stylet is in again.";
+                   ? "You now hold the introducer with its stylet in. It is wider than the needle."
+                   : "The introducer is out again, with its stylet in.";
+      return "The stylet is back in.";
     case EventKind::inject:
-      return said.needle_in ? "Contrast is injected: " + whole_ml(engine::kPushMl) + "."
+      return said.needle_in ? "Injecting contrast: " + whole_ml(engine::kPushMl) + "."
                             : "The needle is outside the body: the contrast drips away.";
     case EventKind::breath_hold_request:
       return "Asked to hold the breath.";
@@ -102,7 +103,7 @@ bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality 
 }
 
 std::string missing_depth_words() {
-  return "Not noted: no depth is set. Set how far the needle is to go in, then press F2.";
+  return "Not noted: no depth is set. Set the needle’s depth, then press F2.";
 }
 
 std::string numb_words(const engine::Moment& moment) {
@@ -137,10 +138,10 @@ std::string flow_words(const cases::NeedleFlow& flow) {
 
 std::string guide_words(const Seen& seen, cases::Modality modality) {
   if (modality == cases::Modality::xray) return "No needle guide here: it is mounted on an ultrasound probe.";
-  if (!seen.needle_by_mouse) return "No needle guide: an arm holds the needle, and leads it freely.";
+  if (!seen.needle_by_mouse) return "No needle guide: an arm holds the needle and moves it freely.";
   if (seen.in_guide) return "The needle is in its guide: its path lies between the dotted lines in the picture.";
-  if (seen.guided) return "Needle guide on: the needle is brought to it; G puts it aside.";
-  if (seen.inserted) return "The needle is free. It is in tissue: draw it out before G brings it to its guide.";
+  if (seen.guided) return "Needle guide on: the needle moves to it; G puts it aside.";
+  if (seen.inserted) return "The needle is free. It is in tissue: withdraw it before G brings it to its guide.";
   return "Needle guide off: the needle is free.";
 }
 
@@ -151,10 +152,10 @@ ArmsSaid arms_words(const ArmsHeld& arms) {
   const auto which = [](const std::array<bool, 2>& so) { return so[0] && so[1] ? 2 : so[0] ? 0 : so[1] ? 1 : -1; };
   constexpr const char* kArms[] = {"left arm", "right arm", "both arms"};
   if (const int lost = which(arms.lost); lost == 2)
-    return {"both arms lost: their tools stay, mouse and keys move them (Tab)", true};
+    return {"both arms lost: their tools stay where they are; move them with mouse and keys (Tab)", true};
   else if (lost >= 0)
     return {std::string(kArms[lost]) + " lost: the " + tool(static_cast<std::size_t>(lost)) +
-                " stays, mouse and keys move it (Tab)",
+                " stays where it is; move it with mouse and keys (Tab)",
             true};
   if (const int late = which(arms.late); late >= 0)
     return {std::string(late == 2 ? "" : "the ") + kArms[late] + (late == 2 ? " answer" : " answers") +
@@ -174,7 +175,7 @@ const char* arm_state(const ArmsHeld& arms, haptics::Side side) {
 
 std::string breath_words(const cases::PatientBreath& breath) {
   if (!breath.hold_asked) return {};
-  if (breath.state.failed) return "the breath could be held no longer";
+  if (breath.state.failed) return "the breath could not be held any longer";
   return tissue::holds(breath.state) ? "the breath is held" : "the breath is not held yet";
 }
 

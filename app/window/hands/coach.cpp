@@ -81,8 +81,8 @@ std::string Hints::search() const {
   const glm::dvec3 way_lps_mm = *entry_ - probe_.origin_lps_mm;
   const double from_mm = glm::length(way_lps_mm - probe_.axial * glm::dot(way_lps_mm, probe_.axial));
   if (from_mm <= kFarMm) return {};
-  if (view_.away.y < kAboveCosine) return "Look from above (4): there the probe goes as you drag it.";
-  return told("The probe is %.1f mm from the green entry: look about it, and first ", from_mm) +
+  if (view_.away.y < kAboveCosine) return "Look from above (4): in that view the probe follows your drag.";
+  return told("The probe is %.1f mm from the green entry: search around it, but first ", from_mm) +
          slide_probe(way_lps_mm);
 }
 
@@ -107,13 +107,13 @@ std::string Hints::align() const {
   const glm::dvec3 to_entry = *entry_ - tip_lps_mm_, to_target = target - tip_lps_mm_;
   if (const double from_mm = glm::length(to_entry); from_mm > kAtEntryMm)
     return told("The needle’s tip is %.1f mm from the green entry: ", from_mm) +
-           by(HeldTool::needle, "lead it " + slide_words(to_entry, HeldTool::needle, needle_.axis, view_)) + ".";
+           by(HeldTool::needle, "move it " + slide_words(to_entry, HeldTool::needle, needle_.axis, view_)) + ".";
   const glm::dvec3 aim = glm::normalize(to_target);
   const double beside_deg = degrees(glm::length(devices::turn_between(needle_.axis, aim)));
   if (beside_deg > kAimedDeg)
-    return told("The needle points %.1f° beside the target: ", beside_deg) +
+    return told("The needle points %.1f° off the target: ", beside_deg) +
            by(HeldTool::needle, "turn " + aim_words(aim, needle_, view_)) + ".";
-  return "The needle is aimed: " + by(HeldTool::needle, "push it on (wheel, or Page Down)") + ".";
+  return "The needle is aimed: " + by(HeldTool::needle, "advance it (wheel, or Page Down)") + ".";
 }
 
 std::string Hints::advance() const {
@@ -121,45 +121,44 @@ std::string Hints::advance() const {
   const double left_mm = glm::dot(to_middle, needle_.axis);
   const double beside_mm = glm::length(to_middle - left_mm * needle_.axis);
   if (beside_mm > kPassedShare * target_.radius_mm)
-    return told("The needle’s path passes the target’s middle by %.1f mm: ", beside_mm) +
-           by(HeldTool::needle, "draw back to the skin and aim again") + ".";
+    return told("The needle’s path misses the target’s middle by %.1f mm: ", beside_mm) +
+           by(HeldTool::needle, "pull back to the skin and aim again") + ".";
   if (!seen_.frame->needle_tip && seen_.inserted_mm > kUnseenMm) {
     const double off_mm = off_plane_mm(tip_lps_mm_);
     if (std::abs(off_mm) <= 0.5 * kInPlaneMm)
-      return "The tip lies in the picture’s plane, but does not show: " +
-             by(HeldTool::needle, "push on by little (wheel, or Page Down)") + ".";
-    return told(
-               "Stop: the picture does not show the tip, which is %.1f mm beside its plane. Bring the probe to "
-               "it: ",
-               std::abs(off_mm)) +
+      return "The tip is in the picture’s plane, but does not show: " +
+             by(HeldTool::needle, "advance a little (wheel, or Page Down)") + ".";
+    return told("Stop: the picture does not show the tip, which is %.1f mm off its plane. Bring the probe to it: ",
+                std::abs(off_mm)) +
            slide_probe(off_mm * normal_);
   }
-  if (!seen_.frame->target) return "Go on only while tip and target are both in the picture.";
+  if (!seen_.frame->target) return "Advance only while tip and target are both in the picture.";
   if (left_mm > kThereShare * target_.radius_mm)
-    return told("Push on: %.1f mm to the target’s middle: ", left_mm) +
+    return told("Advance: %.1f mm to the target’s middle: ", left_mm) +
            by(HeldTool::needle, "wheel, or Page Down") + ".";
   if (left_mm < -kThereShare * target_.radius_mm)
-    return told("Draw back: %.1f mm too deep: ", -left_mm) + by(HeldTool::needle, "wheel, or Page Up") + ".";
+    return told("Pull back: %.1f mm too deep: ", -left_mm) + by(HeldTool::needle, "wheel, or Page Up") + ".";
   return "The tip is in the target: say so (Space).";
 }
 
 std::string align_words() {
-  return "Turn the probe until the needle’s path and the target lie in one picture, then aim the needle.";
+  return "Turn the probe until the needle’s path and the target are in one picture, then aim the needle.";
 }
 
 std::string advance_words(const Seen& seen) {
   if (!seen.frame->needle_tip && seen.inserted_mm > kUnseenMm)
-    return "Stop: the picture does not show the tip. Find it before you go on.";
-  if (!seen.frame->target) return "Go on only while tip and target are both in the picture.";
-  return "Push on slowly while the picture shows the tip. In the target: Space.";
+    return "Stop: the picture does not show the tip. Find it before you advance.";
+  if (!seen.frame->target) return "Advance only while tip and target are both in the picture.";
+  return "Advance slowly while the picture shows the tip. In the target: Space.";
 }
 
 std::string across_words(const Seen& seen) {
   if (!seen.inserted)
-    return "The needle is to cross the picture: put it in beside the probe, steep enough for the target’s depth.";
+    return "The needle must cross the picture: insert it beside the probe, steep enough for the target’s depth.";
   return seen.frame->needle_tip
-             ? "The picture shows the tip: slide the probe a little ahead of it, then push on until it shows again."
-             : "Push on by little until the picture shows the tip; if it does not, bring the probe back to it.";
+             ? "The picture shows the tip: slide the probe a little ahead of it, then advance until it shows again."
+             : "Advance a little at a time until the picture shows the tip; if it does not, bring the probe back "
+               "to it.";
 }
 
 }  // namespace
@@ -169,7 +168,7 @@ std::string hint_words(const cases::Case& scene, const Seen& seen, int help, con
       scene.picture.modality != cases::Modality::ultrasound)
     return {};
   const bool numbers = help > 1;
-  if (seen.moment.state.fire.fired) return "It is said. Finish (F9).";
+  if (seen.moment.state.fire.fired) return "You have said so. Finish (F9).";
   if (seen.frozen) return "The picture is frozen: press F to unfreeze it.";
   const Hints hints(scene, seen, view);
   if (!seen.inserted && seen.press_mm < kPressedMm)
@@ -179,8 +178,7 @@ std::string hint_words(const cases::Case& scene, const Seen& seen, int help, con
     if (const std::string first = numbers ? hints.search() : ""; !first.empty()) return first;
     return "Look for the target: " +
            hints.by(HeldTool::probe,
-                    "slide the probe over the gel, and turn it, until the lamp says that it is in the "
-                    "picture") +
+                    "slide and turn the probe over the gel until the lamp shows that it is in the picture") +
            ".";
   }
   if (scene.approach == cases::Approach::out_of_plane) return across_words(seen);

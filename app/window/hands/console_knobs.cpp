@@ -39,8 +39,8 @@ std::string colour_words(std::span<const cases::Structure> structures) {
       "colour Doppler (V): red flows towards the probe, blue away from it; flow across the beam does not show";
   if (flow.empty()) return words + "\nthe flow is not known in any vessel of this case";
   words += list("\nit shows the flow in", flow.names());
-  if (!flow.unknown().empty()) words = list(words + "\nhow blood flows is not known in", flow.unknown());
-  return words + "\ndrag its box over the picture; a double click makes it large again";
+  if (!flow.unknown().empty()) words = list(words + "\nthe flow is not known in", flow.unknown());
+  return words + "\ndrag its box over the picture; double-click to make it large again";
 }
 
 void ConsoleKnobs::begin(const cases::Picture& picture) {

@@ -117,7 +117,7 @@ base::Result<session::LiveAttempt> PersonAttempt::live(casedb::Library& library)
   auto interrupted = session::InterruptedAttempt::take(library, *resumed_);
   if (!interrupted) return interrupted.error();
   if (!session::was_made_at(interrupted->attempt(), *task_))
-    return base::Error{"other_case", "the interrupted attempt was made at another task than this"};
+    return base::Error{"other_case", "the interrupted attempt was made on a different task"};
   if (const auto replayed = interrupted->replay(task_->scene); !replayed) return replayed.error();
   take_up_tools(left_handed_);
   for (const cases::Inputs& inputs : interrupted->recording().inputs)

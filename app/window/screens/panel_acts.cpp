@@ -95,7 +95,7 @@ void ActsPanel::say(PersonAttempt& attempt, const Seen& seen, bool flipped, Even
   // None is taken up in tissue: the words say so, and nothing is done.
   const bool refused =
       core && kind == EventKind::stylet_in && needle.skin.in_body && introducer == haptics::Introducer::none;
-  if (!refused && !attempt.say(kind, length_mm)) return answer(seen, "Too much at once: say it again.");
+  if (!refused && !attempt.say(kind, length_mm)) return answer(seen, "Too much at once: do it again.");
   if (!refused) ++done_[kind];
   std::string words = said_words({kind, length_mm, flipped, needle.skin.in_body, core, introducer});
   if (words.empty())
@@ -182,12 +182,12 @@ void ActsPanel::draw_planned_depth(const cases::Case& scene) {
   note_item("planned depth");
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "how far you plan to insert the needle, by its marks; F2 notes it (calipers from the skin down to "
-        "the target set it)");
+        "how far you plan to insert the needle, by its marks; F2 notes it (measuring from skin to target with the "
+        "calipers sets it)");
 }
 
 void ActsPanel::draw_decision(PersonAttempt& attempt, const Seen& seen, bool flipped) {
-  ImGui::TextWrapped("You have signed in. Proceed with this puncture, or defer it?");
+  ImGui::TextWrapped("The sign-in is complete. Proceed with this puncture, or defer it?");
   if (noted_button("Proceed (Y)")) {
     decided_ = true;
     say(attempt, seen, flipped, EventKind::proceed);
@@ -259,7 +259,7 @@ void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped, const dev
     if (used > 0.0F && used + wide < room) ImGui::SameLine();
     used = used + wide < room ? used + wide : wide;
     if (ImGui::Button(event.words)) say(attempt, seen, flipped, event.kind);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("a mentor lets it happen: %s", event.about);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("triggered by a mentor: %s", event.about);
   }
 }
 

@@ -235,7 +235,7 @@ void AttemptPanel::draw_depth(const cases::Instrument& instrument) {
   const cases::State& state = seen_.moment.state;
   const bool fired = state.fire.fired, in = fired ? state.needle.skin.in_body : seen_.inserted;
   char depth[64];
-  std::snprintf(depth, sizeof depth, "%.0f mm of the needle are in",
+  std::snprintf(depth, sizeof depth, "%.0f mm of the needle is in",
                 fired ? state.needle.inserted_mm : seen_.inserted_mm);
   const std::string words =
       (fired ? fire_words(instrument) + "; " : std::string()) + (in ? depth : "the needle is outside");
@@ -339,7 +339,7 @@ void AttemptPanel::draw_pause(Trainer& trainer) {
   PersonAttempt& attempt = *trainer.attempt();
   ImGui::OpenPopup("Paused");
   if (!ImGui::BeginPopupModal("Paused", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  ImGui::TextUnformatted("No time goes by, and the hands are still.");
+  ImGui::TextUnformatted("Time is stopped, and the hands are still.");
   if (ImGui::Button("Go on (Esc)", {-1.0F, 0.0F})) {
     leaving_ = false;
     attempt.pause(false);
@@ -410,7 +410,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   if (running)
     acts_.draw(trainer, seen_, flipped(), room_.view_of_hands(seen_));
   else
-    ImGui::TextUnformatted("The attempt is being stored and graded …");
+    ImGui::TextUnformatted("Storing and grading the attempt …");
   // The rest gives way until every button is there; not back again, for it would leap with each answer.
   acts_px_ = std::max(acts_px_, ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y);
   ImGui::EndChild();

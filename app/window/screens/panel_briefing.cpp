@@ -48,15 +48,14 @@ void draw_hands(const casedb::CaseRow& row) {
   constexpr const char *kFiner = "makes everything ten times finer",
                        *kFires = "fires; with an access needle, says that you are there",
                        *kViews = "views of the room; with Alt the mouse turns the view",
-                       *kSwap = "the room in the picture's place; the console folded",
-                       *kPause = "pause; begin again";
+                       *kSwap = "swap room and picture; fold the console", *kPause = "pause; begin again";
   constexpr Line kLines[] = {
-      {"Tab", "takes the other tool: needle or probe", ""},
+      {"Tab", "switches tool: needle or probe", ""},
       {"left drag", "moves it; the probe follows the skin", "moves the needle"},
       {"right drag", "turns the needle; tilts and rocks the probe", "turns the needle"},
       {"middle drag", "rotates the probe", ""},
-      {"wheel", "pushes the needle on and draws it back; presses the probe on",
-       "pushes the needle on and draws it back"},
+      {"wheel", "advances the needle and pulls it back; presses the probe",
+       "advances the needle and pulls it back"},
       {"Shift", kFiner, kFiner},
       {"G", "puts the needle into the probe's guide", ""},
       {"P", "", "the pedal; arrows turn the C-arm, H takes the hand out of the beam"},
@@ -98,11 +97,11 @@ std::string unit_of(const std::string& metric_id) {
   return info != nullptr ? info->unit : "";
 }
 
-// "left kidney, as far as the CT tells (93 % sure)".
+// "left kidney, as far as the CT shows (93 % sure)".
 std::string organ_words(const volume::OrganFound& organ) {
   std::string name(base::name_of(volume::kFoundOrganNames, organ.organ));
   std::replace(name.begin(), name.end(), '_', ' ');
-  return name + ", as far as the CT tells (" + reports::number_text(100.0 * organ.confidence, 0) + " % sure)";
+  return name + ", as far as the CT shows (" + reports::number_text(100.0 * organ.confidence, 0) + " % sure)";
 }
 
 // Where the target lies, and the way that was planned to it.
@@ -151,9 +150,8 @@ bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
   if (noted_button("All checked")) checked_.fill(true);
   ImGui::Spacing();
   quiet(
-      "SIR 2019, punctures of high risk: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l. Whether to go on "
-      "is "
-      "decided in the room: proceed or defer.");
+      "SIR 2019, high-risk punctures: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l. You decide in the "
+      "room: proceed or defer.");
   ImGui::Spacing();
   draw_hands(row);
   return all;
@@ -166,12 +164,12 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   fact("Guidance", modality_words(row.modality));
   if (row.modality != cases::Modality::xray) fact("Approach", reports::approach_text(row.approach));
   if (row.modality == cases::Modality::xray && row.sight_law >= cases::SightLaw::scatter)
-    fact("Field", "scatter from the patient veils the picture; narrowing the collimator makes it clearer");
+    fact("Field", "scatter from the patient hazes the picture; narrowing the collimator makes it clearer");
   fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
   fact("Needle tip", std::string(base::name_of(casedb::kTipWords, row.touch.tip)));
   const bool phantom = row.subject == cases::Subject::phantom;
   if (phantom)
-    fact("On the table", "a block of gel, no patient: no sign-in, no anaesthetic, no held breath");
+    fact("On the table", "a gel block, no patient: no sign-in, no anaesthetic, no breath-hold");
   else
     fact("Patient", reports::position_text(row.position));
   if (row.motion.breathing()) fact("Breathing", "the organ moves with every breath");
@@ -189,7 +187,7 @@ void BriefingPanel::draw_task(Trainer& trainer) {
     explain(criterion.metric);
   }
   if (!row.rule.criteria.empty() && trainer.provisional())
-    quiet("Provisional: no standard of consultants has been set for this case.");
+    quiet("Provisional: no consultant standard has been set for this case.");
   if (trainer.dependability())
     quiet(reports::dependability_line(*trainer.dependability(), casedb::Learners::people).c_str());
   ImGui::Spacing();
@@ -262,7 +260,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::EndChild();
   const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
   if (trainer.resuming()) {
-    ImGui::TextUnformatted("Going through what was recorded …");
+    ImGui::TextUnformatted("Going through the recording …");
     end_screen();
     return false;
   }

@@ -154,8 +154,7 @@ void ChoosePanel::draw_drafts(Trainer& trainer) {
       to_delete_ = draft.case_id;
       question_.ask(
           "Delete the draft “" + draft.title + "”, version " + std::to_string(draft.version) +
-              ", for good? What was drawn, its rule and its settings are lost; the CT stays with the cases "
-              "that share it.",
+              ", for good? Its drawings, rule and settings are lost; the CT stays with the cases that share it.",
           "Delete it", "Keep it");
     }
     ImGui::PopID();
@@ -176,12 +175,12 @@ void ChoosePanel::draw_import(Trainer& trainer, const Keys& keys) {
   if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) return;
   heading("Import a CT");
   quiet("A folder of DICOM slices, or a file: DICOM, NIfTI, NRRD, MetaImage. Identifying data are left out.");
-  ImGui::TextUnformatted("Folder or file (may be dropped on the window)");
+  ImGui::TextUnformatted("Folder or file (or drop it on the window)");
   ImGui::SetNextItemWidth(-1.0F);
   if (std::exchange(import_begins_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::InputText("##source", source_.data(), source_.size());
   note_item("Folder or file");
-  ImGui::TextUnformatted("Title, without anything of the patient");
+  ImGui::TextUnformatted("Title, without patient details");
   ImGui::SetNextItemWidth(-1.0F);
   ImGui::InputText("##title", import_title_.data(), import_title_.size());
   note_item("Title");
@@ -244,9 +243,8 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed, const std::string&
   ImGui::Spacing();
   if (trainer.choices().empty())
     ImGui::TextWrapped(
-        "There is no case to practise yet. A mentor publishes them; `seldinger demo --cases` makes the graded "
-        "cases "
-        "that the program brings along.");
+        "There is no case to practise yet. A mentor publishes cases; `seldinger demo --cases` makes the graded "
+        "cases that come with the program.");
   std::string looked_at;
   if (!trainer.in_room().empty()) {
     ImGui::Spacing();

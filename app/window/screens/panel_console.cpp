@@ -130,7 +130,7 @@ void MonitorPanel::draw_calipers_and_keep(bool calipers) {
     ImGui::SameLine();
   }
   if (ImGui::Button("Save (T)")) keep();
-  tip("keeps this picture as PNG, with its scale and no patient data");
+  tip("saves this picture as PNG, with its scale and no patient data");
 }
 
 bool MonitorPanel::draw_beam_knobs(float wide) {
@@ -154,15 +154,15 @@ bool MonitorPanel::draw_beam_knobs(float wide) {
   if (knob("##depth", depth_mm, std::min(view.probe.least_depth_mm, view.depth_mm),
            std::max(view.probe.most_depth_mm, view.depth_mm), "depth %.0f mm", 0.26F * wide))
     knobs_.set_depth_mm(std::round(depth_mm));
-  tip("depth (↑ ↓): what lies deeper is not seen, a deeper picture is a slower one");
+  tip("depth (↑ ↓): deeper structures are not shown; a deeper picture is slower");
   ImGui::SameLine();
   if (knob("##focus", focus_mm, 0.0, view.depth_mm, focus_mm > 0.0 ? "focus %.0f mm" : "focus: all", 0.26F * wide))
     knobs_.set_focus_mm(std::round(focus_mm));
-  tip("focus ([ ]): where the beam is narrow; at the left end at every depth");
+  tip("focus ([ ]): where the beam is narrow; at the left end, at every depth");
   ImGui::SameLine();
   if (knob("##frequency", frequency_mhz, view.probe.least_mhz, view.probe.most_mhz, "%.1f MHz", 0.20F * wide))
     knobs_.set_frequency_mhz(0.1 * std::round(10.0 * frequency_mhz));
-  tip("frequency (, .): high resolves, low goes deep");
+  tip("frequency (, .): high resolves better, low goes deeper");
   return turned;
 }
 
@@ -170,9 +170,8 @@ void MonitorPanel::draw_colour_knobs(float wide) {
   bool compound = knobs_.asked().compound_deg > 0.0;
   if (ImGui::Checkbox("compound", &compound)) knobs_.set_compounding(compound);
   note_item("compound");
-  tip("spatial compounding (Z): three looks, from the middle and from either side, are averaged.\n"
-      "Speckle and the shadows of edges are evened out; what moves is blurred: each picture is\n"
-      "one new look, shown with the last two");
+  tip("spatial compounding (Z): three views, from the middle and from either side, are averaged.\nSpeckle and edge "
+      "shadows are evened out; movement is blurred: each picture is\none new view, shown with the last two");
   ImGui::SameLine();
   bool colour = knobs_.asked().colour_mm_s > 0.0;
   if (ImGui::Checkbox("colour", &colour)) knobs_.turn(ConsoleTurn::colour, false);
@@ -184,7 +183,7 @@ void MonitorPanel::draw_colour_knobs(float wide) {
   if (knob("##scale", scale_cm_s, 0.1 * imaging::kLeastColourMmS, 0.1 * imaging::most_colour_mm_s(knobs_.view()),
            "± %.0f cm/s", 0.19F * wide))
     knobs_.set_colour_mm_s(10.0 * std::round(scale_cm_s));
-  tip("the speed at which colours wrap around; a deeper picture allows less");
+  tip("the speed at which colours alias; a deeper picture allows less");
   ImGui::SameLine();
   const double most_lean_deg = imaging::most_lean_deg(knobs_.view());
   if (most_lean_deg == 0.0) return;
@@ -192,7 +191,7 @@ void MonitorPanel::draw_colour_knobs(float wide) {
   if (knob("##lean", lean_deg, -most_lean_deg, most_lean_deg, "lean %+.0f°", 0.19F * wide))
     knobs_.set_lean_deg(std::round(lean_deg));
   note_item("lean");
-  tip("colour's beams lean, + to the right of a picture that is not flipped: then flow along the face shows, too");
+  tip("steers the colour beams, + to the right of an unflipped picture: then flow along the face shows, too");
   ImGui::SameLine();
 }
 
@@ -219,7 +218,7 @@ bool MonitorPanel::draw_screen_knobs(float wide) {
   tip("grey map (B)");
   ImGui::SameLine();
   turned = ImGui::Checkbox("flip", &screen.flip) || turned;
-  tip("left for right (X)");
+  tip("flip left and right (X)");
   // Time gain compensation, one slider for each layer of depth.
   for (std::size_t i = 0; i < screen.tgc_db.size(); ++i) {
     if (i > 0) ImGui::SameLine();
@@ -291,7 +290,7 @@ void MonitorPanel::draw_slices(session::Monitor& monitor, bool frozen, bool turn
            0.36F * wide))
     knobs_.set_slice_mm(std::round(slice_mm));
   ImGui::EndDisabled();
-  tip("scrolls through the slices beside the probe's (↑ ↓)");
+  tip("scrolls through the slices next to the probe's (↑ ↓)");
   ImGui::SameLine();
   draw_calipers_and_keep(true);
 }
@@ -338,14 +337,14 @@ void MonitorPanel::draw_fluoroscope(session::Monitor& monitor, cases::Fluoroscop
   // Pedal, hand and automatic exposure.
   ImGui::Button("Pedal (P)");
   asked.pedal = asked.pedal || ImGui::IsItemActive();
-  tip("held, it makes pulses; let go, the last image stays");
+  tip("hold for pulses; when released, the last image stays");
   ImGui::SameLine();
   ImGui::Checkbox("hand away (H)", &asked.hand_away);
   tip("lets go of the needle and takes the hand out of the beam");
   ImGui::SameLine();
   bool automatic = asked.automatic_exposure;
   if (ImGui::Checkbox("automatic", &automatic)) expose_automatically(automatic, asked);
-  tip("automatic exposure (X); without it kV and mA are yours");
+  tip("automatic exposure (X); without it you set kV and mA");
   ImGui::SameLine();
   draw_calipers_and_keep(false);
   if (one_row) ImGui::SameLine();
@@ -364,7 +363,7 @@ void MonitorPanel::draw_fluoroscope(session::Monitor& monitor, cases::Fluoroscop
   tip("field (9 0): a smaller one is magnified, at more dose to the skin");
   ImGui::SameLine();
   knob("##across", asked.collimator.open_u, cases::kCollimatorMin, 1.0, "across %.2f", 0.21F * wide);
-  tip("collimator ([ ] both): what is shut off gets no dose, and blurs nothing");
+  tip("collimator ([ ] both): what it covers gets no dose and adds no haze");
   ImGui::SameLine();
   knob("##along", asked.collimator.open_v, cases::kCollimatorMin, 1.0, "along %.2f", 0.21F * wide);
   ImGui::SameLine();
@@ -373,9 +372,8 @@ void MonitorPanel::draw_fluoroscope(session::Monitor& monitor, cases::Fluoroscop
   ImGui::SetNextItemWidth(0.17F * wide);
   if (ImGui::Combo("##panel", &panel_, kPanels, static_cast<int>(std::size(kPanels)))) tell(monitor);
   note_item("panel");
-  tip("detector: an ideal one; a flat panel, in which 5 % of the picture before is left; an image intensifier "
-      "(II), "
-      "whose glare veils 5 %");
+  tip("detector: an ideal one; a flat panel, which keeps 5 % of the previous picture; an image intensifier (II), "
+      "whose veiling glare is 5 %");
   if (asked.automatic_exposure) return;
   // Technique, by hand.
   knob("##kv", asked.kv, machine_.kv_min, machine_.kv_max, "%.0f kV", 0.48F * wide);

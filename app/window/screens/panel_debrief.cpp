@@ -108,7 +108,7 @@ void draw_picture(const Debrief& debrief, const gpu::ScreenPicture* picture) {
   if (picture == nullptr || picture->width_px() <= 0) return;
   ImGui::Spacing();
   const float across = std::min(ImGui::GetContentRegionAvail().x, scaled(420.0F));
-  quiet(debrief.attempt.end == casedb::AttemptEnd::fired ? "The picture when the trigger fell:"
+  quiet(debrief.attempt.end == casedb::AttemptEnd::fired ? "The picture at the moment of firing:"
                                                          : "The last picture:");
   ImGui::Image(
       reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture->name())),
@@ -224,7 +224,8 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
   // Without one the screen's head says that the grade is provisional, and no more: how many are missing is no
   // trainee's concern.
   if (banded)
-    quiet((reports::experts_text(experts) + " Bar: 10th to 90th percentile; dot: yours; stroke: asked.").c_str());
+    quiet(
+        (reports::experts_text(experts) + " Bar: 10th to 90th percentile; dot: yours; stroke: the limit.").c_str());
 }
 
 void DebriefPanel::draw_values(const Debrief& debrief) {
@@ -274,7 +275,7 @@ void DebriefPanel::add_steps(const Debrief& debrief) {
 void DebriefPanel::draw_steps(const Debrief& debrief, int first) {
   heading("Steps");
   if (std::none_of(debrief.steps.begin(), debrief.steps.end(), was_asked)) {
-    quiet("None is asked for here.");
+    quiet("None is required here.");
     return;
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 3.0F});  // a whole procedure at a glance
@@ -342,7 +343,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::TextColored(colour_of(debrief.grade.grade.verdict), "%s",
                      reports::verdict_text(debrief.grade.grade).c_str());
   ImGui::SetWindowFontScale(1.0F);
-  if (debrief.grade.provisional) quiet("Provisional: no standard of consultants has been set for this case.");
+  if (debrief.grade.provisional) quiet("Provisional: no consultant standard has been set for this case.");
   if (trainer.dependability())
     quiet(reports::dependability_line(*trainer.dependability(), casedb::Learners::people).c_str());
   if (const std::string away = reports::away_text(debrief.attempt); !away.empty()) quiet(away.c_str());

@@ -33,15 +33,14 @@ std::string stands_words(const devices::Calibration& calibration) {
 }  // namespace
 
 void DevicePanel::draw_hands(Trainer& trainer, const OtherHands& other) {
-  heading("What hands can use here");
+  heading("Devices here");
   hand("Mouse and keys", true, "always");
-  hand("Gamepad", other.gamepad.has_value(),
-       other.gamepad ? "beside the mouse" : "none that is known is plugged in");
+  hand("Gamepad", other.gamepad.has_value(), other.gamepad ? "beside the mouse" : "no known gamepad is plugged in");
   hand("3-D mouse", other.space_mouse.has_value(),
        other.space_mouse ? "beside the mouse" : "none: spacenavd does not answer");
   if (!trainer.arms()) {
     hand("Arms with force", false,
-         "not asked for. `seldinger train --device haply` uses two arms of a Haply Inverse service, `--device "
+         "not in use. `seldinger train --device haply` uses two arms of a Haply Inverse service, `--device "
          "virtual` two simulated ones.");
     return;
   }
@@ -55,9 +54,9 @@ void DevicePanel::draw_hands(Trainer& trainer, const OtherHands& other) {
     hand(side == 0 ? "Left" : "Right", seen[side].reading.healthy, arm_words(seen[side], status.ids[side], status));
     quiet(("      " + stands_words(device_of(arms, side).calibration)).c_str());
   }
-  if (ImGui::Button("Exchange left and right (X)")) {
+  if (ImGui::Button("Swap left and right (X)")) {
     trainer.exchange_arms();
-    if (trainer.refusal().empty()) kept_ = "Left and right are exchanged.";
+    if (trainer.refusal().empty()) kept_ = "Left and right are swapped.";
   }
 }
 
@@ -65,7 +64,7 @@ void DevicePanel::draw_gains(Trainer& trainer) {
   const StationDevice device = device_of(*trainer.arms(), side_);
   devices::DeviceGains gains = gains_.value_or(device.gains);
   ImGui::Spacing();
-  heading(side_ == 0 ? "How the left arm is set" : "How the right arm is set");
+  heading(side_ == 0 ? "Settings of the left arm" : "Settings of the right arm");
   auto motion = static_cast<float>(gains.motion_scale), share = static_cast<float>(100.0 * gains.force_share),
        most = static_cast<float>(gains.most_force_n);
   bool done = false;
@@ -78,7 +77,7 @@ void DevicePanel::draw_gains(Trainer& trainer) {
   bool moved = slider("travel of the tool", motion, static_cast<float>(devices::kLeastMotionScale),
                       static_cast<float>(devices::kMostMotionScale), "%.2f × the hand's");
   moved = slider("force", share, 0.0F, static_cast<float>(100.0 * devices::kMostForceShare), "%.0f %%") || moved;
-  moved = slider("most force", most, 0.0F, static_cast<float>(devices::kMostForceN), "%.1f N") || moved;
+  moved = slider("maximum force", most, 0.0F, static_cast<float>(devices::kMostForceN), "%.1f N") || moved;
   if (moved)
     gains_ = devices::DeviceGains{static_cast<double>(motion), 0.01 * static_cast<double>(share),
                                   static_cast<double>(most)};
@@ -106,7 +105,7 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
     led_s_ = session::clock_s();
   }
   begin_screen("devices");
-  heading("The hands at this desk");
+  heading("The hand devices at this desk");
   ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(150.0F));
   const bool leave =
       ImGui::Button("Back (Esc)", {scaled(140.0F), 0.0F}) || keys.pressed(kEscape) || keys.pressed(kF1 + 9);
@@ -120,7 +119,7 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
     if (!trainer.refusal().empty()) ImGui::TextColored(kNot, "That did not work: %s", trainer.refusal().c_str());
     if (!kept_.empty()) ImGui::TextColored(kWell, "%s", kept_.c_str());
     const Arms& arms = *trainer.arms();
-    quiet(arms.station_file.empty() ? "What is changed here holds until the program ends; --station FILE keeps it."
+    quiet(arms.station_file.empty() ? "Changes here last until the program ends; --station FILE keeps them."
                                     : ("Kept in " + arms.station_file.filename().string() + ".").c_str());
     if (arms.led) lead_styli(keys, *arms.led, *page);
   }
@@ -131,13 +130,13 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
     draw_arm_traces(page->seen().arms, 0.45F * all.y);
     draw_work(trainer, keys, *page);
   } else {
-    ImGui::TextWrapped("Two arms that push back can be looked at, calibrated and tested here.");
+    ImGui::TextWrapped("With two force-feedback arms, this page shows, calibrates and tests them.");
   }
   ImGui::EndChild();
   end_screen();
   if (page != nullptr && keys.pressed('X')) {
     trainer.exchange_arms();
-    if (trainer.refusal().empty()) kept_ = "Left and right are exchanged.";
+    if (trainer.refusal().empty()) kept_ = "Left and right are swapped.";
   }
   if (!leave) return;
   kept_.clear();

@@ -91,7 +91,7 @@ void draw_arm(const char* name, const ArmSeen& arm, float width, float height) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     draw(arm.at_mm[axis], place, {corner.x, corner.y + scaled(24.0F)}, {width, above - scaled(28.0F)},
          kAxisColours[axis]);
-  std::snprintf(words, sizeof words, "force asked of it, N: %.2f", static_cast<double>(arm.force_n.bin(1).most));
+  std::snprintf(words, sizeof words, "force requested, N: %.2f", static_cast<double>(arm.force_n.bin(1).most));
   corner = frame(width, height - above, words);
   draw(arm.force_n, force, {corner.x, corner.y + scaled(24.0F)}, {width, height - above - scaled(28.0F)},
        kForceColour);

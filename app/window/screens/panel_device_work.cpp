@@ -65,7 +65,7 @@ void DevicePanel::draw_calibration(Trainer& trainer, const Keys& keys, DevicePag
   ImGui::TextWrapped("%s", calibration_words(calibration).c_str());
   ImGui::PopStyleColor();
   if (!calibration) {
-    quiet("Take the point again that is wrong, or begin anew (C).");
+    quiet("Take the wrong point again, or start again (C).");
     return;
   }
   if (!ImGui::Button("Keep it (Enter)") && !keys.pressed(kEnter)) return;
@@ -98,9 +98,9 @@ void DevicePanel::draw_work(Trainer& trainer, const Keys& keys, DevicePage& page
     draw_calibration(trainer, keys, page);
   else
     quiet(
-        "The self-test tells whether an arm answers, reaches, pushes where it is told to, and how late it is; it "
-        "takes a minute. A calibration tells where an arm stands: on the template, six points are touched with the "
-        "stylus. Both are done again after an arm was moved.");
+        "The self-test checks whether an arm answers, reaches far enough, pushes in the right direction, and how "
+        "late it is; it takes a minute. The calibration finds the arm's position: you touch six points on the "
+        "template with the stylus. Repeat both after moving an arm.");
 }
 
 void DevicePanel::lead_styli(const Keys& keys, LedArms& led, DevicePage& page) {
@@ -109,7 +109,7 @@ void DevicePanel::lead_styli(const Keys& keys, LedArms& led, DevicePage& page) {
   const double now_s = session::clock_s(), elapsed_s = std::clamp(now_s - led_s_, 0.0, 0.5);
   led_s_ = now_s;
   ImGui::Spacing();
-  heading("Its stylus is led from here");
+  heading("Move its stylus from here");
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::InvisibleButton("stylus", {width, pad_px});
@@ -118,7 +118,7 @@ void DevicePanel::lead_styli(const Keys& keys, LedArms& led, DevicePage& page) {
   draw->AddText(
       {corner.x + 8.0F, corner.y + 6.0F}, IM_COL32(200, 208, 216, 255),
       "drag: across the board · wheel: up and down\narrows, Page Up, Page Down: the same\nB: its button · "
-      "V: to the point that is asked for");
+      "V: to the point asked for");
   const std::size_t arm = LedArms::arm_of(page.status().ids[side_].arm, side_);
   LedStylus& stylus = styli_[arm];
   const ImGuiIO& io = ImGui::GetIO();

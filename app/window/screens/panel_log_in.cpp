@@ -16,7 +16,7 @@ void LogInPanel::draw(Trainer& trainer) {
   begin_fields("account", width, 20.0F * ImGui::GetFontSize());
   ImGui::Spacing();
   heading("Seldinger");
-  quiet("Image-guided needle puncture, practised where nobody is hurt.");
+  quiet("Image-guided needle puncture, practised where nobody gets hurt.");
   ImGui::Spacing();
   // Esc, or a click beside the fields, does not take the keyboard away: what is typed lands where it was meant for.
   constexpr int kIdleFrames = 4;  // Dear ImGui needs two to move the focus

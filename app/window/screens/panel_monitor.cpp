@@ -203,7 +203,7 @@ void MonitorPanel::draw_lamps(const std::optional<cases::FrameTruth>& frame) {
   };
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 8.0F);
   if (!frame || !frame->live) {
-    const char* words = frame ? "the picture stands still" : "no picture yet";
+    const char* words = frame ? "the picture is frozen" : "no picture yet";
     ImGui::TextDisabled("%s", words);
     note_item(words);
     return;

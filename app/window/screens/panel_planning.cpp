@@ -240,7 +240,7 @@ void PlanningPanel::draw_small(const Trainer& trainer, const std::shared_ptr<con
   constexpr float kLeastPx = 200.0F;
   if (task != nullptr) take(task);
   if (task == nullptr || planes_.empty()) {
-    quiet("It is being prepared …");
+    quiet("preparing the CT …");
     return;
   }
   const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -312,8 +312,8 @@ void PlanningPanel::draw_words(Trainer& trainer, const session::Task& task) {
   }
   if (!way_) {
     ImGui::TextWrapped(
-        "No path is planned yet: click where the needle is to go in (1), then where its tip is to be "
-        "when it is fired (2).");
+        "No path is planned yet: click where the needle should go in (1), then where its tip should be when it is "
+        "fired (2).");
     note_item("No path is planned yet");
   } else {
     const std::string words = "Your path: " + way_words(*way_) + ".";
@@ -333,7 +333,7 @@ void PlanningPanel::draw_words(Trainer& trainer, const session::Task& task) {
 void PlanningPanel::draw_large(Trainer& trainer, const Keys& keys,
                                const std::shared_ptr<const session::Task>& task) {
   take(task);
-  if (planes_.empty()) return quiet("It is being prepared …");
+  if (planes_.empty()) return quiet("preparing the CT …");
   read_keys(trainer, keys);
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float words_px = 3.2F * ImGui::GetTextLineHeightWithSpacing() + 1.4F * ImGui::GetFrameHeightWithSpacing();
@@ -381,7 +381,7 @@ void PlanningPanel::draw_large(Trainer& trainer, const Keys& keys,
   }
   quiet(
       "Click or drag: entry or tip · arrows, Page Up, Page Down: by 1 mm · wheel: slices, Shift: by 5 · "
-      "right click: planes meet there");
+      "right click: centre the planes there");
 }
 
 }  // namespace seldinger::app

@@ -291,7 +291,7 @@ void RoomPanel::draw_views() {
     note_item(name.c_str());
   }
   ImGui::TextDisabled("Alt: drag turns, right drag shifts, wheel zooms");
-  ImGui::TextDisabled("the same view once more: without zoom");
+  ImGui::TextDisabled("the same view again: resets the zoom");
   ImGui::EndPopup();
 }
 

@@ -38,7 +38,7 @@ std::optional<cases::FrameTruth> frame_at(const cases::Recording& recording, dou
 }
 
 std::string who_made(const session::WatchedAttempt& watched) {
-  if (watched.live()) return "in the room now, some seconds behind the hand";
+  if (watched.live()) return "in the room now, with a few seconds' delay";
   const casedb::AttemptRow& attempt = watched.attempt();
   return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "watched again";
 }
@@ -111,7 +111,7 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
   const double to_s = beside != nullptr ? to_s_ : std::max(0.1, watched.duration_s());
   if (beside == nullptr) {
     std::string said = assessment::words_at(watched.marks(), t_s, kCaptionS);
-    if (one_.rests) said = "Over: this is the moment in which it was fired.";
+    if (one_.rests) said = "Over: this is the moment of firing.";
     heading(said.empty() ? " " : said.c_str());
     if (!said.empty()) note_item(("Caption: " + said).c_str());
   }
@@ -163,12 +163,12 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
 void WatchPanel::draw_events(Trainer& trainer) {
   if (!trainer.may_cause()) return;
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Let it happen:");
+  ImGui::TextUnformatted("Trigger:");
   for (const cases::EventInfo& event : cases::event_kinds()) {
     if (event.source != cases::EventSource::mentor) continue;
     ImGui::SameLine();
     if (noted_button(event.words)) trainer.cause(event.kind);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("within some seconds, in the trainee's room");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("within a few seconds, in the trainee's room");
   }
 }
 
@@ -222,7 +222,7 @@ void WatchPanel::draw_side(session::WatchedAttempt& watched, Side& side, const P
   heading(who);
   note_item(who);
   const std::string said = side.rests
-                               ? "this is the moment in which it was fired"
+                               ? "this is the moment of firing"
                                : assessment::words_at(watched.marks(), side.seen.moment.state.t_s, kSideCaptionS);
   ImGui::SameLine();
   ImGui::PushTextWrapPos(left + part.left + part.width);
@@ -277,7 +277,7 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
   elapsed_s_ = std::min(0.1, now_s - drawn_s_);
   drawn_s_ = now_s;
   if (preparing(watched) || (beside != nullptr && preparing(*beside))) {
-    heading(beside != nullptr ? "Both attempts are being prepared …" : "The attempt is being prepared …");
+    heading(beside != nullptr ? "Preparing both attempts …" : "Preparing the attempt …");
     ImGui::ProgressBar(static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)), {scaled(220.0F), 0.0F}, "");
   } else {
     const bool begins = one_.shown != watched.attempt().attempt_id;

@@ -50,7 +50,7 @@ std::string Answering::problem(const std::string& item_id) const {
   const questionnaire::Item* item = form().find_item(item_id);
   if (!told_ || item == nullptr) return {};
   const auto answer = questionnaire::answer_from_text(form(), *item, typed(item_id));
-  return answer ? std::string() : "Please mend this: it " + answer.error().text + ".";
+  return answer ? std::string() : "Please correct this: it " + answer.error().text + ".";
 }
 
 std::vector<std::pair<std::size_t, const questionnaire::Item*>> Answering::open_items() const {

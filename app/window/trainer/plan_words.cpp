@@ -26,13 +26,13 @@ std::vector<std::string> warnings_of(const session::PlannedWay& way) {
     if (part.forbidden)
       warnings.push_back("through " + part.what + ", " + whole(part.length_mm, " mm of it, ") +
                          whole(part.from_mm, " mm below the skin"));
-  for (const std::string& one : way.not_crossed) warnings.push_back("misses " + one + ", which is to be crossed");
+  for (const std::string& one : way.not_crossed) warnings.push_back("misses " + one + ", which must be crossed");
   return warnings;
 }
 
 std::vector<std::string> compared_words(const assessment::PlannedPath& planned,
                                         const assessment::PlannedPath* done) {
-  if (done == nullptr) return {"The needle never went in: nothing was done of the plan."};
+  if (done == nullptr) return {"The needle never went in: nothing of the plan was done."};
   const assessment::PlanComparison told = assessment::compare(planned, *done);
   return {"Entry: " + whole(told.entry_mm, " mm from where you planned it"),
           "Direction: " + whole(told.angle_deg, "° off your line"),

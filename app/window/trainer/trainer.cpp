@@ -52,7 +52,7 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
     throw;
   }
   if (!account) {
-    refusal_ = "Name or password is not right.";
+    refusal_ = "The name or password is wrong.";
     return;
   }
   delays_.forget(name, kThisStation);
@@ -69,14 +69,14 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
 void Trainer::open_first() {
   if (const Choice* choice = find_choice(first_case_)) {
     if (choice->open) return choose(first_case_);
-    refusal_ =
-        "“" + choice->title + "” is not open for " + account_.login_name + ": " +
-        (choice->attempts_left.value_or(1) > 0 ? "what comes before it is not passed yet." : "no attempt is left.");
+    refusal_ = "“" + choice->title + "” is not open for " + account_.login_name + ": " +
+               (choice->attempts_left.value_or(1) > 0 ? "you have not yet passed what comes before it."
+                                                      : "no attempt is left.");
     return;
   }
   open_editor(first_case_);
   if (screen_ != TrainerScreen::editor)
-    refusal_ = "The case of this workstation is not one for " + account_.login_name + " to practise.";
+    refusal_ = "The case of this workstation is not one that " + account_.login_name + " can practise.";
 }
 
 std::optional<base::Error> Trainer::open_at_log_in(const std::string& case_id) {
@@ -173,7 +173,7 @@ void Trainer::log_out() {
     if (answering) static_cast<void>(answering->keep());  // what does not fit its item was shown
     casedb::log_out(library_, person_id);
   } catch (const base::Failure& failure) {
-    refusal_ = std::string("Logged out, but the library could not note it: ") + failure.what();
+    refusal_ = std::string("Logged out, but the library could not record it: ") + failure.what();
   }
 }
 
@@ -234,7 +234,7 @@ void Trainer::duplicate_draft(const std::string& case_id) {
   const std::string title = draft->title;
   const auto made = casedb::duplicate_case(library_, case_id, account_.login_name);
   refusal_ = made ? "" : made.error().text;
-  imported_ = made ? "“" + title + "” has a duplicate: a draft of its own, of the same CT." : "";
+  imported_ = made ? "“" + title + "” now has a duplicate: a new draft of the same CT." : "";
   list_choices();
 }
 
@@ -272,7 +272,7 @@ void Trainer::take_import() {
   }
   imported_ = "“" + (*made)->title + "” is imported, as a draft.";
   for (const std::string& other : (*made)->same_ct)
-    imported_ += " The library has this CT already, in " + other + ".";
+    imported_ += " The library already has this CT, in " + other + ".";
   if (screen_ == TrainerScreen::choose) list_choices();
 }
 

@@ -29,7 +29,7 @@ TEST(Names, AreIdsTitlesOrTheirOnlyBeginning) {
 }
 
 TEST(Names, SaysWhichOnesItMayBe) {
-  EXPECT_EQ(id_of("01a2", kKnown).error().text, "3 are called so or begin so: 01a2-b1, 01a2-c7, 77f0-00");
+  EXPECT_EQ(id_of("01a2", kKnown).error().text, "3 have this name or begin with it: 01a2-b1, 01a2-c7, 77f0-00");
 }
 
 }  // namespace

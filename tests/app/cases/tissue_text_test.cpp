@@ -26,11 +26,11 @@ TEST(TissueText, OrgansAreNamedDoubtedOrNotLookedFor) {
   organs.found = {{volume::FoundOrgan::spleen, 0.986, 301.4, 95}, {volume::FoundOrgan::liver, 0.31, 1500.0, 110}};
   EXPECT_EQ(organs_text(organs),
             "organs   spleen (301 ml, 99 % sure)\n"
-            "not found, or not sure enough to name: liver, right kidney, left kidney, right lung, left lung, "
+            "not found, or too uncertain to name: liver, right kidney, left kidney, right lung, left lung, "
             "vertebrae, ribs, "
             "aorta, vena cava, bladder, gallbladder\n"
-            "not looked for: heart, stomach, bowel, pancreas and whatever else is not listed\n");
-  EXPECT_TRUE(organs_text({}).starts_with("organs   none is sure enough to be named\n"));
+            "not looked for: heart, stomach, bowel, pancreas and anything else not listed\n");
+  EXPECT_TRUE(organs_text({}).starts_with("organs   none is certain enough to be named\n"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST(Fitness, EveryReasonIsTold) {
   none.disk_free_mb = 3.4;
   EXPECT_EQ(fitness_of(none).fit, Fit::no);
   EXPECT_EQ(fitness_of(none).why,
-            (std::vector<std::string>{"there is no display to open the window on", "OpenGL 4.3 cannot be had",
+            (std::vector<std::string>{"there is no display to open the window on", "OpenGL 4.3 is not available",
                                       "3 MB are free for attempts, of 26 that one of ten minutes may take"}))
       << "what would only slow it is beside the point";
 }

@@ -75,7 +75,7 @@ TEST(AnswerJson, WhatIsNotThereIsNull) {
 TEST(AnswerText, CanBeQuoted) {
   EXPECT_EQ(text_of_answer(an_answer()),
             "welch: Welch's t test\n"
-            "  n           20 (é 12, b 8); left out, as something is missing: 1\n"
+            "  n           20 (é 12, b 8); left out because something is missing: 1\n"
             "  estimate    -1.58 [95 % CI -3.365 to 0.2055], difference of means (é − b)\n"
             "  test        statistic -1.861, df 17.78, p = 0.0794\n"
             "  smallest    4.941e-324\n"

@@ -143,8 +143,8 @@ class TrainDrillTest : public testing::Test {
   static Act push_of(const std::string& words, bool mouse) {
     const bool out = has(words, "Page Up");
     const auto colon = words.find(": ", 6);
-    const double told_mm = has(words, "Push on: ")
-                               ? std::strtod(words.c_str() + words.find("Push on: ") + 9, nullptr)
+    const double told_mm = has(words, "Advance: ")
+                               ? std::strtod(words.c_str() + words.find("Advance: ") + 9, nullptr)
                            : has(words, "mm too deep") ? std::strtod(words.c_str() + colon + 2, nullptr)
                                                        : 4.0;
     const double mm = std::clamp(told_mm, 1.0, 6.0);
@@ -212,7 +212,7 @@ class TrainDrillTest : public testing::Test {
         act.notches = std::clamp(static_cast<int>(amount_in(words, " mm") / 3.0), 1, 3);
       } else if (has(words, "from above (4)") && (mouse || !has(words, "or by"))) {
         act.key = "4";
-      } else if (has(words, "drag") || has(words, "lead it") || has(words, "or by")) {
+      } else if (has(words, "drag") || has(words, "move it") || has(words, "or by")) {
         act = mouse ? drag_of(words) : key_of(words);
       } else if (has(words, "heel")) {
         act = push_of(words, mouse);

@@ -225,7 +225,7 @@ TEST_F(TrainEditorTest, AMentorPreparesTheCtBesideTheOriginal) {
   EXPECT_TRUE(mentor_->passes(1.5));
   mentor_->keep_picture();
   const std::size_t before = library_.ask("case list")["cases"].size();
-  mentor_->click("Keep as a draft of its own");
+  mentor_->click("Keep as a new draft");
   ASSERT_TRUE(fixtures::until([&] { return library_.ask("case list")["cases"].size() == before + 1; }, 60.0));
   ASSERT_TRUE(fixtures::until([&] { return !editor().contains("prepared"); })) << "another case is in the editor";
   mentor_->keep_picture();

@@ -179,7 +179,7 @@ TEST_F(TrainKeysTest, AMentorNeedsNoMouse) {
   EXPECT_EQ(editor()["lesions"], 1) << "no letter was taken for a tool";
   person_->keep_picture();
 
-  ASSERT_NO_FATAL_FAILURE(press_at("Can it be met?"));
+  ASSERT_NO_FATAL_FAILURE(press_at("Can it be passed?"));
   ASSERT_TRUE(fixtures::until([&] { return editor().value("rehearsed", 0) == 24; }, 240.0)) << person_->now();
   EXPECT_GT(editor()["met"], 0);
   EXPECT_LT(editor()["met"], 24) << "novices do not all hit";
@@ -189,7 +189,7 @@ TEST_F(TrainKeysTest, AMentorNeedsNoMouse) {
   EXPECT_TRUE(library_.ask("attempt list")["attempts"].size() > 0) << "the demo's own";
   for (const Json& attempt : library_.ask("attempt list")["attempts"])
     EXPECT_NE(attempt["case_id"], case_id_) << "none is kept";
-  ASSERT_NO_FATAL_FAILURE(press_at("Can it be met?"));
+  ASSERT_NO_FATAL_FAILURE(press_at("Can it be passed?"));
   ASSERT_TRUE(focuses("Stop")) << "the keyboard stayed: " << person_->now();
   press("Return");
   ASSERT_TRUE(fixtures::until([&] { return editor().value("rehearsed", 24) < 24; }, 60.0)) << person_->now();
@@ -239,9 +239,9 @@ TEST_F(TrainKeysTest, AMentorImportsACtWithoutAMouse) {
   ASSERT_TRUE(fixtures::until([&] { return person_->shows("imported"); }, 120.0)) << person_->now();
   EXPECT_EQ(cases(), before + 1);
   EXPECT_TRUE(says("| Torso of my own |"));
-  EXPECT_EQ(words().find("has this CT already"), std::string::npos);
+  EXPECT_EQ(words().find("already has this CT"), std::string::npos);
   ASSERT_NO_FATAL_FAILURE(import(ct.string(), "Once more"));
-  EXPECT_TRUE(fixtures::until([&] { return says("has this CT already, in “Torso of my own”, version 1"); }, 120.0))
+  EXPECT_TRUE(fixtures::until([&] { return says("already has this CT, in “Torso of my own”, version 1"); }, 120.0))
       << words();
   EXPECT_EQ(cases(), before + 2) << "told, and not refused";
   ASSERT_NO_FATAL_FAILURE(import((library_.folder() / "nowhere").string(), "Nothing"));

@@ -100,8 +100,8 @@ class TrainPlanTest : public testing::Test {
   void do_and_compare(double pushed_mm) {
     ASSERT_NO_FATAL_FAILURE(enter_and_decide(true));
     trainee_->press("F2");
-    ASSERT_TRUE(comes("Entry noted, and the needle is planned to go in by ")) << now();
-    EXPECT_NEAR(number_in(says("Entry noted"), "planned to go in by "), planned_mm_, 1.01);
+    ASSERT_TRUE(comes("Entry noted, with a planned needle depth of ")) << now();
+    EXPECT_NEAR(number_in(says("Entry noted"), "needle depth of "), planned_mm_, 1.01);
     ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(pushed_mm));
     ASSERT_NO_FATAL_FAILURE(trainee_->fire());
     ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
@@ -126,7 +126,7 @@ class TrainPlanTest : public testing::Test {
     EXPECT_TRUE(comes("Caption: ")) << now();
     keep("replay");
     trainee_->click("4 ×");
-    EXPECT_TRUE(comes("Caption: Over: this is the moment in which it was fired.")) << now();
+    EXPECT_TRUE(comes("Caption: Over: this is the moment of firing.")) << now();
     keep("replay_over");
     trainee_->press("Escape");
     ASSERT_TRUE(trainee_->reaches("debrief")) << now();
@@ -174,7 +174,7 @@ TEST_F(TrainPlanTest, ADrillIsWatchedBesideAnExpertsAndAttemptsFollowOnEachOther
     ASSERT_NO_FATAL_FAILURE(trainee_->begin_again());
     ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
     EXPECT_TRUE(comes("What is missing")) << now();
-    EXPECT_TRUE(comes("Of each, oldest first")) << now();
+    EXPECT_TRUE(comes("For each, oldest first")) << now();
     keep("after");
     trainee_->click("Mine beside the expert’s (B)");
     ASSERT_TRUE(trainee_->reaches("watch")) << now();

@@ -114,7 +114,7 @@ TEST_F(TrainRoomTest, AFireIsHeardSeenAndToldUntilTheNeedleIsOut) {
   // The thrown tip comes out last: the hand has drawn 25 mm when 22 mm of it are still in.
   trainee_->screen().wheel(-18, 60);
   ASSERT_TRUE(fixtures::until([&] { return now().value("inserted_mm", 99.0) < 12.0; })) << now();
-  EXPECT_TRUE(comes("of the needle are in")) << "still in: " << now();
+  EXPECT_TRUE(comes("of the needle is in")) << "still in: " << now();
   EXPECT_TRUE(comes("fired, 22 mm at the picture")) << now();
   trainee_->screen().hold("Prior", 2.0);
   EXPECT_TRUE(comes("fired, 22 mm; the needle is outside")) << now();
@@ -134,7 +134,7 @@ TEST_F(TrainRoomTest, WhatIsSaidShowsThatItIsDoneAndWhatItDid) {
   trainee_->click("F2  Entry and depth noted");
   EXPECT_TRUE(comes("Not noted: no depth is set")) << now();
   trainee_->plan_depth(0.4);
-  EXPECT_TRUE(comes("planned to go in by ")) << now();
+  EXPECT_TRUE(comes("planned needle depth of ")) << now();
   EXPECT_TRUE(comes("✓ F2  Entry and depth noted"));
   press("F3");
   EXPECT_TRUE(comes("no blood comes")) << now();
@@ -145,9 +145,9 @@ TEST_F(TrainRoomTest, WhatIsSaidShowsThatItIsDoneAndWhatItDid) {
   press("F6");
   EXPECT_TRUE(comes("nicked where the needle points")) << now();
   press("slash");
-  EXPECT_TRUE(comes("You now hold the introducer, its stylet in. It is wider than the needle.")) << now();
+  EXPECT_TRUE(comes("You now hold the introducer with its stylet in. It is wider than the needle.")) << now();
   press("slash");
-  EXPECT_TRUE(comes("The introducer is put aside.")) << now();
+  EXPECT_TRUE(comes("The introducer is put down.")) << now();
   press("F7");
   EXPECT_TRUE(comes("Now the breath is held")) << now();
   press("F8");
@@ -164,7 +164,7 @@ TEST_F(TrainFlowTest, AnOpenNeedleTellsWhatItIsInAndContrastRunsIn) {
   press("backslash");
   EXPECT_TRUE(comes("the contrast drips away")) << now();
   press("slash");
-  EXPECT_TRUE(comes("The stylet is in again.")) << now();
+  EXPECT_TRUE(comes("The stylet is back in.")) << now();
   ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(glm::distance(way_.entry_lps_mm, way_.target_lps_mm)));
   trainee_->keep_picture();
   press("slash");
@@ -175,11 +175,11 @@ TEST_F(TrainFlowTest, AnOpenNeedleTellsWhatItIsInAndContrastRunsIn) {
   press("F3");
   EXPECT_TRUE(comes("Aspirated through the needle: fluid comes.")) << now();
   press("backslash");
-  EXPECT_TRUE(comes("Contrast is injected: 2 ml.")) << now();
+  EXPECT_TRUE(comes("Injecting contrast: 2 ml.")) << now();
   EXPECT_TRUE(comes("contrast is running in")) << now();
   EXPECT_TRUE(goes("contrast is running in")) << now();
   press("slash");
-  EXPECT_TRUE(comes("The stylet is in again.")) << now();
+  EXPECT_TRUE(comes("The stylet is back in.")) << now();
   EXPECT_TRUE(goes("from the open needle")) << now();
 }
 
@@ -195,7 +195,7 @@ TEST_F(TrainRoomTest, TheGuidesLineIsInThePictureAndWordsSayWhenThereIsNone) {
   ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(40.0));
   trainee_->keep_picture();
   press("g");
-  EXPECT_TRUE(comes("It is in tissue: draw it out before G")) << now();
+  EXPECT_TRUE(comes("It is in tissue: withdraw it before G")) << now();
   EXPECT_TRUE(goes("guide line"));
   press("g");  // refused, in the same words
   EXPECT_TRUE(trainee_->passes(0.6));
@@ -275,7 +275,7 @@ TEST_F(TrainRoomTest, LampsTellWhetherTipAndTargetAreInThePicture) {
   EXPECT_TRUE(fixtures::until([&] { return trainee_->shows("tip in the picture"); })) << now();
   trainee_->keep_picture();
   press("f");
-  EXPECT_TRUE(comes("the picture stands still")) << now();
+  EXPECT_TRUE(comes("the picture is frozen")) << now();
   press("f");
   // Out of the skin again: within, a tip in its guide stays in the picture.
   for (int i = 0; i < 10 && now().value("inserted_mm", 0.0) > 0.0; ++i) {

@@ -57,7 +57,7 @@ TEST(BlindedReplay, WhoseItIsAndWhatTheRecordingKnowsChangeNoByte) {
   ReplaySheet other = sheet;
   casedb::AttemptRow& row = other.attempt.row;
   other.attempt.operator_label = "Zebedee Quagmire, consultant";
-  other.note = "Recorded by another step version";
+  other.note = "Recorded by another version of the step";
   row.attempt_id = "0190a1b2-0000-7000-8000-0000000000ff";
   row.case_id = "0190a1b2-0000-7000-8000-0000000000cc";
   row.case_title = "Group B, day 2";

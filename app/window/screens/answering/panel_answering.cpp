@@ -76,7 +76,7 @@ void AnsweringPanel::draw_item(Answering& answering, const Item& item) {
   if (item.kind == ItemKind::comment) {
     if (text_field("##comment", typed, questionnaire::kMostCommentBytes, true)) type(typed);
     note_item(item.id.c_str());
-    quiet("Please name no patient and no colleague.");
+    quiet("Please do not name patients or colleagues.");
   }
   if (item.not_applicable) tick(not_applicable, "Not applicable", not_applicable);
   if (item.kind == ItemKind::scale || item.kind == ItemKind::choice) tick("", "No answer", "none");
@@ -88,7 +88,7 @@ void AnsweringPanel::draw_item(Answering& answering, const Item& item) {
 void AnsweringPanel::draw_last_look(Answering& answering) {
   const auto open = answering.open_items();
   ImGui::TextWrapped("%s",
-                     open.empty() ? "Every question has an answer." : "Not answered, which you may leave so:");
+                     open.empty() ? "Every question has an answer." : "Not answered (you may leave these blank):");
   for (const auto& [section, item] : open) {
     ImGui::PushID(item->id.c_str());
     if (ImGui::SmallButton("Answer it")) answering.go_to(section);
@@ -137,8 +137,8 @@ void AnsweringPanel::draw(Trainer& trainer, const Keys& keys) {
   const bool later = noted_button("Later (Esc)") || keys.pressed(kEscape);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  quiet((std::string(answering.lost() ? "What you type is not kept right now."
-                                      : "What you type is kept, whatever happens to this window.") +
+  quiet((std::string(answering.lost() ? "What you type is not being saved at the moment."
+                                      : "What you type is saved, whatever happens to this window.") +
          " Your participant code: " + answering.respondent() + ".")
             .c_str());
   buttons_px_ = ImGui::GetCursorPosY() - from_px + ImGui::GetStyle().ItemSpacing.y;

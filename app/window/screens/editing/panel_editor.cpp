@@ -30,20 +30,18 @@ constexpr int kHome = 268, kDelete = 261;  // as GLFW numbers them
 constexpr float kRightPx = 400.0F;
 
 constexpr const char* kHelp =
-    "In a plane: click or drag – by the tool in hand · wheel – slice by slice · Ctrl and wheel – nearer · right "
+    "In a plane: click or drag – use the tool in hand · wheel – slice by slice · Ctrl and wheel – nearer · right "
     "drag – "
     "move the plane · middle drag – window\n"
     "In the room: drag – turn · right drag – move · wheel – nearer · click – there, with Entry in hand the planned "
     "entry\n"
-    "Lesion: click – its middle; drag its middle or its rim. Structure: the same; a tube takes a point with each "
-    "click "
-    "and is done with Enter\n"
-    "CT: left as it came, right as it is prepared; in the histogram – drag – the skin's value\n"
+    "Lesion: click – its middle; drag its middle or its rim. Structure: the same; for a tube each click adds a "
+    "point, Enter finishes it\n"
+    "CT: left original, right prepared; in the histogram – drag – the skin's value\n"
     "Keys: V L T E R P – tools · Z – undo · W – next window · Home – all of the CT · C – room cut away · Del – "
     "remove what is chosen · Enter, Esc – finish, drop a tube\n"
-    "Without a mouse: Tab, Shift+Tab – to the next field, button or plane; in a plane arrows lead the cursor "
-    "(Shift: "
-    "by 10 mm), Page Up and Down go through it, Space clicks there\n"
+    "Without a mouse: Tab, Shift+Tab – to the next field, button or plane; in a plane arrows move the cursor "
+    "(Shift: by 10 mm), Page Up and Down scroll, Space clicks there\n"
     "Each change is stored at once, and the checks run again.";
 
 }  // namespace
@@ -151,11 +149,11 @@ void EditorPanel::draw_rehearsal(CaseEditor& editor) {
     return;
   }
   ImGui::BeginDisabled(editor.lesions().empty() || editor.row().rule.criteria.empty());
-  if (noted_button("Can it be met?###rehearsal")) editor.rehearse();
+  if (noted_button("Can it be passed?###rehearsal")) editor.rehearse();
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("simulated operators try it as it is; graded, not kept. It needs a lesion and a rule");
-  if (now.error) ImGui::TextWrapped("It could not be tried: %s", now.error->text.c_str());
+  if (now.error) ImGui::TextWrapped("Could not run the trial: %s", now.error->text.c_str());
   if (!now.found) return;
   const RehearsalWords words = words_of(*now.found);
   const bool met = now.found->passed() > 0;
@@ -163,7 +161,7 @@ void EditorPanel::draw_rehearsal(CaseEditor& editor) {
   ImGui::TextWrapped("%s", words.found.c_str());
   ImGui::PopStyleColor();
   note_item("can it be met: found");
-  if (!editor.checking() && !editor.is_of_now(*now.found)) quiet("This was before the case was last changed.");
+  if (!editor.checking() && !editor.is_of_now(*now.found)) quiet("The case has been changed since.");
   for (const std::string& line : words.levels) ImGui::BulletText("%s", line.c_str());
   for (const std::string& line : words.missed) ImGui::TextWrapped("%s", line.c_str());
   quiet(words.operators.c_str());
@@ -225,11 +223,11 @@ void EditorPanel::draw_actions(Trainer& trainer) {
   const bool draft = row.state == casedb::CaseState::draft, review = row.state == casedb::CaseState::review;
   if (!editor.locked().empty() && draft) quiet(editor.locked().c_str());
   if ((draft || review) && row.origin == "import" && !row.burned_in_checked &&
-      noted_button("I looked: no slice holds text", -1.0F))
+      noted_button("I looked: no slice shows text", -1.0F))
     editor.confirm_no_burned_in_text();
   if (draft || review) {
     ImGui::SetNextItemWidth(-1.0F);
-    ImGui::InputTextWithHint("##note", "a note for the decision, if any", note_.data(), note_.size());
+    ImGui::InputTextWithHint("##note", "a note on the decision, if any", note_.data(), note_.size());
   }
   const bool holds = editor.scene() && editor.scene()->check.holds() && !editor.checking();
   const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
@@ -240,7 +238,7 @@ void EditorPanel::draw_actions(Trainer& trainer) {
     return;
   }
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("an attempt that is graded and not kept: the draft stays a draft");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("an attempt that is graded but not kept: the draft stays a draft");
   ImGui::SameLine();
   if (draft) {
     ImGui::BeginDisabled(!holds);
@@ -276,8 +274,8 @@ void EditorPanel::ask_to_publish(const CaseEditor& editor, bool own_cohort) {
   to_own_cohort_ = own_cohort;
   std::string words = "Publish “" + row.title + "”, version " + std::to_string(row.version) + ", " +
                       (own_cohort ? "to the cohorts that you lead now?" : "to everybody?") +
-                      " It can be practised at once, and never changes again: a correction is a new version.";
-  if (row.version > 1) words += " It takes the place of the version before it in every list.";
+                      " It can be practised at once, and cannot be changed again: a correction is a new version.";
+  if (row.version > 1) words += " It replaces the previous version in every list.";
   question_.ask(std::move(words), "Publish it", "Not yet");
 }
 
@@ -346,16 +344,16 @@ void EditorPanel::draw_pictures(CaseEditor& editor, const Keys& keys, float wide
   }
   const auto made = editor.preparing().newest();
   const EditorLook came{editor.preparing().original(), nullptr, "as it came"},
-      prepared{made ? made->shown : nullptr, came.of, "prepared; blue: as it came"};
+      prepared{made ? made->shown : nullptr, came.of, "prepared; blue: original"};
   planes_.draw(0, editor, came, keys, wide, high);
   ImGui::SameLine();
   ImGui::PushID("prepared");
   prepared_planes_.draw(0, editor, prepared, keys, wide, high);
   ImGui::PopID();
-  came_room_.draw(editor, {came.of, nullptr, "The skin of the CT as it came"}, wide, high);
+  came_room_.draw(editor, {came.of, nullptr, "The skin of the original CT"}, wide, high);
   ImGui::SameLine();
   ImGui::PushID("prepared");
-  prepared_room_.draw(editor, {prepared.of, nullptr, "The skin as it is prepared"}, wide, high);
+  prepared_room_.draw(editor, {prepared.of, nullptr, "The skin as prepared"}, wide, high);
   ImGui::PopID();
 }
 

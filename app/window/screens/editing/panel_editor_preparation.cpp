@@ -82,13 +82,14 @@ void EditorPanel::draw_preparation(CaseEditor& editor) {
     }
     // On one line: the sliders below stay in sight.
     const bool less = !casedb::less_decimated(made->settings, cost).empty();
-    ImGui::Text("%zu triangles of %zu%s", cost.triangles, cost.full_triangles, less ? ": fewer would open it" : "");
+    ImGui::Text("%zu triangles of %zu%s", cost.triangles, cost.full_triangles,
+                less ? ": fewer would leave holes" : "");
     ImGui::Text("HU differ by %.1f on average, 95 %% by %.0f", cost.mean_hu, cost.most_95_hu);
     note_item("what it costs");
   }
   const bool kept = made && made->settings == preparing.stored();
   ImGui::BeginDisabled(preparing.busy() || preparing.error() || !made || kept);
-  if (noted_button("Keep as a draft of its own")) kept_preparation_ = editor.keep_preparation();
+  if (noted_button("Keep as a new draft")) kept_preparation_ = editor.keep_preparation();
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(preparing.settings() == casedb::Preparation{});

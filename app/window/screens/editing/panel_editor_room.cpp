@@ -97,7 +97,7 @@ void EditorRoom::draw(CaseEditor& editor, EditorLook look, float width, float he
   ImDrawList* draw = ImGui::GetWindowDrawList();
   if (!room_ || !look_.of) {
     draw->AddRectFilled(corner, {corner.x + width, corner.y + height}, IM_COL32(60, 64, 68, 255));
-    draw->AddText({corner.x + 12.0F, corner.y + 10.0F}, IM_COL32(220, 230, 235, 255), "the room is being made …");
+    draw->AddText({corner.x + 12.0F, corner.y + 10.0F}, IM_COL32(220, 230, 235, 255), "preparing the room …");
     return;
   }
   note_item("room");  // once it is made

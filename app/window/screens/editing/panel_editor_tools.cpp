@@ -332,7 +332,7 @@ bool EditorPanel::draw_drawn_structure() {
 
 void EditorPanel::draw_entry(CaseEditor& editor) {
   heading("Planned entry");
-  quiet("Click on the skin in the room, or near it in a plane: it goes onto the skin.");
+  quiet("Click on the skin in the room, or near it in a plane: it snaps to the skin.");
   const auto& entry = editor.row().planned_entry_lps_mm;
   if (!entry) {
     ImGui::TextUnformatted("none is planned");
@@ -344,7 +344,7 @@ void EditorPanel::draw_entry(CaseEditor& editor) {
   const auto scene = editor.scene();
   if (!scene || !scene->way) return;
   const session::PlannedWay& way = *scene->way;
-  ImGui::Text("%.0f mm to the target's middle, the needle has %.0f mm", way.length_mm,
+  ImGui::Text("%.0f mm to the target's middle; the needle is %.0f mm long", way.length_mm,
               editor.row().instrument.length_mm);
   ImGui::Text("%.0f° off straight into the skin, %.0f° to the %s", way.skin_angle_deg, std::abs(way.head_deg),
               way.head_deg < 0.0 ? "feet" : "head");
@@ -500,7 +500,7 @@ bool EditorPanel::draw_setting(CaseEditor& editor) {
   static const std::vector<const casedb::SettingRow*> kRows = casedb::shown_rows(&casedb::SettingRow::editor);
   for (const casedb::SettingRow* row : kRows) changed = draw_setting(*row) || changed;
   if (editor.row().modality == cases::Modality::xray && editor.row().sight_law >= cases::SightLaw::scatter)
-    quiet("Fluoroscopy: scatter from the patient veils the picture; narrowing the collimator makes it clearer.");
+    quiet("Fluoroscopy: scatter from the patient hazes the picture; narrowing the collimator makes it clearer.");
   if (titled) editor.set_title(title_.data());
   return changed;
 }

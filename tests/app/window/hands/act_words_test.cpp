@@ -24,7 +24,7 @@ TEST(ActWords, OfWhatIsSaidAreForEverythingThatATraineeSaysInTheRoom) {
       continue;
     EXPECT_FALSE(said_words({event.kind}).empty()) << event.name;
   }
-  EXPECT_EQ(said_words({EventKind::note_plan, 61.4}), "Entry noted, and the needle is planned to go in by 61 mm.");
+  EXPECT_EQ(said_words({EventKind::note_plan, 61.4}), "Entry noted, with a planned needle depth of 61 mm.");
   EXPECT_NE(said_words({EventKind::note_plan}), said_words({EventKind::note_plan, 61.4}));
   EXPECT_NE(said_words({EventKind::probe_checked, 0.0, true}), said_words({EventKind::probe_checked, 0.0, false}));
 }
@@ -52,16 +52,17 @@ TEST(ActWords, OfACoreNeedlesStyletAreOfItsIntroducer) {
     return said_words({.kind = kind, .needle_in = needle_in, .core = true, .introducer = before});
   };
   EXPECT_EQ(words(EventKind::stylet_in, false, Introducer::none),
-            "You now hold the introducer, its stylet in. It is wider than the needle.");
+            "You now hold the introducer with its stylet in. It is wider than the needle.");
   EXPECT_EQ(words(EventKind::stylet_in, true, Introducer::none),
-            "The needle is in tissue: draw it out before you take an introducer.");
+            "The needle is in tissue: withdraw it before you take an introducer.");
   EXPECT_EQ(words(EventKind::stylet_out, true, Introducer::closed),
-            "The stylet is out. The introducer stays where it is, and the needle slides through it.");
+            "The stylet is out. The introducer stays in place, and the needle slides through it.");
   EXPECT_EQ(words(EventKind::stylet_in, true, Introducer::open),
-            "The introducer’s stylet is in again: what you push now is the introducer.");
-  EXPECT_EQ(words(EventKind::stylet_in, false, Introducer::open), "The introducer is out again, its stylet in.");
-  EXPECT_EQ(words(EventKind::stylet_out, false, Introducer::closed), "The introducer is put aside.");
-  EXPECT_EQ(said_words({EventKind::stylet_in}), "The stylet is in again.") << "of an access needle";
+            "The introducer’s stylet is back in: you now push the introducer.");
+  EXPECT_EQ(words(EventKind::stylet_in, false, Introducer::open),
+            "The introducer is out again, with its stylet in.");
+  EXPECT_EQ(words(EventKind::stylet_out, false, Introducer::closed), "The introducer is put down.");
+  EXPECT_EQ(said_words({EventKind::stylet_in}), "The stylet is back in.") << "of an access needle";
 }
 
 TEST(ActWords, OfTheArmsTellWhatStandsInTheWayFirst) {
@@ -80,7 +81,8 @@ TEST(ActWords, OfTheArmsTellWhatStandsInTheWayFirst) {
   arms.late[1] = true;
   EXPECT_EQ(arms_words(arms).words, "both arms answer too late to push back: no force there");
   arms.lost[1] = true;
-  EXPECT_EQ(arms_words(arms).words, "right arm lost: the needle stays, mouse and keys move it (Tab)");
+  EXPECT_EQ(arms_words(arms).words,
+            "right arm lost: the needle stays where it is; move it with mouse and keys (Tab)");
   EXPECT_STREQ(arm_state(arms, haptics::Side::right), "lost");
   EXPECT_STREQ(arm_state(arms, haptics::Side::left), "late");
 }
@@ -122,7 +124,7 @@ TEST(ActWords, OfAGuideSayWhyThereIsNone) {
   EXPECT_NE(guide_words(seen, Modality::xray).find("ultrasound probe"), std::string::npos);
   const std::string off = guide_words(seen, Modality::ultrasound);
   seen.inserted = true;
-  EXPECT_NE(guide_words(seen, Modality::ultrasound).find("draw it out"), std::string::npos);
+  EXPECT_NE(guide_words(seen, Modality::ultrasound).find("withdraw it"), std::string::npos);
   seen.guided = true;
   const std::string on = guide_words(seen, Modality::ultrasound);
   seen.in_guide = true;
@@ -152,7 +154,7 @@ TEST(ActWords, OfTheBreathFollowThePatient) {
   breath.state.held = 1.0;
   EXPECT_EQ(breath_words(breath), "the breath is held");
   breath.state.failed = true;
-  EXPECT_EQ(breath_words(breath), "the breath could be held no longer");
+  EXPECT_EQ(breath_words(breath), "the breath could not be held any longer");
 }
 
 }  // namespace

@@ -60,23 +60,23 @@ TEST_F(CoachTest, LeadsFromTheSkinToTheTarget) {
   state.probe.lateral = {1.0, 0.0, 0.0};
   EXPECT_TRUE(has(hint(), "36.1 mm from the green entry: take the needle (Tab)")) << hint();
   seen_.held = devices::HeldTool::needle;
-  EXPECT_TRUE(has(hint(), "lead it to the left by 30.0 mm (drag, or A)")) << hint();
+  EXPECT_TRUE(has(hint(), "move it to the left by 30.0 mm (drag, or A)")) << hint();
   state.needle.tip_lps_mm = {30.0, -2.0, 0.0};
-  EXPECT_TRUE(has(hint(), "points 43.2° beside the target: turn its hub to the right by 43° (right drag, or"))
+  EXPECT_TRUE(has(hint(), "points 43.2° off the target: turn its hub to the right by 43° (right drag, or"))
       << hint();
   state.needle.direction = glm::normalize(scene_.lesions[0].center_lps_mm - state.needle.tip_lps_mm);
-  EXPECT_TRUE(has(hint(), "aimed: push it on")) << hint();
+  EXPECT_TRUE(has(hint(), "aimed: advance it")) << hint();
   seen_.inserted = true;
   seen_.inserted_mm = 20.0;
   state.needle.tip_lps_mm = scene_.lesions[0].center_lps_mm - 14.0 * state.needle.direction;
   state.probe.origin_lps_mm.z = 1.5;
-  EXPECT_TRUE(has(hint(), "Stop: the picture does not show the tip, which is 1.5 mm beside")) << hint();
+  EXPECT_TRUE(has(hint(), "Stop: the picture does not show the tip, which is 1.5 mm off its plane")) << hint();
   state.probe.origin_lps_mm.z = 0.5;
-  EXPECT_TRUE(has(hint(), "push on by little")) << hint();
+  EXPECT_TRUE(has(hint(), "advance a little")) << hint();
   seen_.frame->needle_tip = true;
-  EXPECT_TRUE(has(hint(), "Push on: 14.0 mm to the target’s middle")) << hint();
+  EXPECT_TRUE(has(hint(), "Advance: 14.0 mm to the target’s middle")) << hint();
   state.needle.tip_lps_mm = scene_.lesions[0].center_lps_mm + 4.0 * state.needle.direction;
-  EXPECT_TRUE(has(hint(), "Draw back: 4.0 mm too deep")) << hint();
+  EXPECT_TRUE(has(hint(), "Pull back: 4.0 mm too deep")) << hint();
   state.needle.tip_lps_mm = scene_.lesions[0].center_lps_mm + 2.0 * state.needle.direction;
   EXPECT_TRUE(has(hint(), "in the target: say so (Space)")) << hint();
   state.fire.fired = true;
@@ -87,10 +87,10 @@ TEST_F(CoachTest, SaysThatAWayMissesBeforeItIsTooLate) {
   seen_.press_mm = 2.0;
   seen_.inserted = seen_.frame->target = seen_.frame->needle_tip = true;
   seen_.moment.state.needle.tip_lps_mm = {7.0, 5.0, 0.0};
-  EXPECT_TRUE(has(hint(), "passes the target’s middle by 7.0 mm")) << hint();
+  EXPECT_TRUE(has(hint(), "misses the target’s middle by 7.0 mm")) << hint();
   // Was: "the tip is in the target", beside it at its depth.
   seen_.moment.state.needle.tip_lps_mm = {7.0, 29.0, 0.0};
-  EXPECT_TRUE(has(hint(), "passes the target’s middle by 7.0 mm")) << hint();
+  EXPECT_TRUE(has(hint(), "misses the target’s middle by 7.0 mm")) << hint();
 }
 
 TEST_F(CoachTest, FadesAndIsForDrillsOnly) {

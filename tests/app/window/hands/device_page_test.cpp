@@ -97,7 +97,7 @@ TEST(DevicePage, ShowsWhereBothArmsAreAndHowOftenTheySpeak) {
     return now[0].reading.healthy && !now[1].reading.healthy;
   })) << "one arm is lost, the other is not";
   const auto without = desk.page->status();
-  EXPECT_NE(arm_words(desk.page->seen().arms[1], without.ids[1], without).find("does not tell of this arm"),
+  EXPECT_NE(arm_words(desk.page->seen().arms[1], without.ids[1], without).find("does not report this arm"),
             std::string::npos);
   desk.led->service().set({.away = true});
   ASSERT_TRUE(until([&] { return !desk.page->status().connected; }));
@@ -155,7 +155,8 @@ TEST(DevicePage, SixPointsCalibrateAnArmAndAWrongOneIsNamedAndTakenAgain) {
   ASSERT_NO_FATAL_FAILURE(desk.touch(0));
   calibration = devices::calibrate(desk.page->seen().taking.points());
   ASSERT_TRUE(calibration) << calibration_words(calibration);
-  EXPECT_EQ(calibration_words(calibration).rfind("Good: off by 0.", 0), 0U) << calibration_words(calibration);
+  EXPECT_EQ(calibration_words(calibration).rfind("Good: off by at most 0.", 0), 0U)
+      << calibration_words(calibration);
   const devices::Placement stands = LedArms::template_from_device(0);
   EXPECT_LT(glm::length(calibration->template_from_device.translation_mm - stands.translation_mm), 2.0);
   EXPECT_NEAR(calibration->template_from_device.rotation[0].x, stands.rotation[0].x, 0.01);

@@ -164,7 +164,7 @@ TEST_F(InterruptedTrainerTest, OneThatDoesNotReplayIsRefusedWithWordsAndKept) {
   ASSERT_TRUE(ready(trainer)) << trainer.refusal();
   ASSERT_TRUE(trainer.resume(true));
   ASSERT_TRUE(looks_until(trainer, TrainerScreen::choose));
-  EXPECT_NE(trainer.refusal().find("another task"), std::string::npos) << trainer.refusal();
+  EXPECT_NE(trainer.refusal().find("a different task"), std::string::npos) << trainer.refusal();
   auto library = open();
   EXPECT_EQ(casedb::list_open_attempts(library).size(), 1U);
 }

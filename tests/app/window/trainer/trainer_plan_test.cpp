@@ -100,7 +100,7 @@ TEST(PlanWords, TellTheWayAndWhatSpeaksAgainstIt) {
   way.too_long = true;
   EXPECT_EQ(warnings_of(way),
             (std::vector<std::string>{"longer than the needle", "through bone, 3 mm of it, 21 mm below the skin",
-                                      "misses renal cortex, which is to be crossed"}));
+                                      "misses renal cortex, which must be crossed"}));
 }
 
 TEST(PlanWords, TellWhatWasDoneAgainstWhatWasPlanned) {

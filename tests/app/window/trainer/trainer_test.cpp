@@ -16,7 +16,7 @@ namespace {
 TEST_F(TrainerTest, PasswordsAreTriedNoFasterThanOnTheDashboard) {
   Trainer trainer(open());
   for (int i = 0; i < 5; ++i) trainer.log_in("mona", "another password");
-  EXPECT_EQ(trainer.refusal(), "Name or password is not right.");
+  EXPECT_EQ(trainer.refusal(), "The name or password is wrong.");
   trainer.log_in("mona", kPassword);
   EXPECT_EQ(trainer.screen(), TrainerScreen::log_in);
   EXPECT_EQ(trainer.refusal(), "Too many tries. Try again in 1 s.");
@@ -70,7 +70,7 @@ TEST_F(TrainerTest, WhoLogsOutIsOutThoughTheLibraryCannotKeepIt) {
   EXPECT_NO_THROW(trainer.log_out());
   EXPECT_EQ(trainer.screen(), TrainerScreen::log_in);
   EXPECT_TRUE(trainer.account().person_id.empty());
-  EXPECT_NE(trainer.refusal().find("could not note it"), std::string::npos) << trainer.refusal();
+  EXPECT_NE(trainer.refusal().find("could not record it"), std::string::npos) << trainer.refusal();
   library.database().run("ROLLBACK");
 }
 
