@@ -2,7 +2,7 @@
 # How many simulated people pass each drill and graded case at their first attempt, as a table, from nothing but the
 # program (docs/simulated-people.md):
 #
-#   docs/pass-rates.sh FOLDER >pass-rates.md
+#   docs/pass-rates.sh FOLDER
 #
 # FOLDER is made a library of the drills and the graded cases (`seldinger demo --cases`), if it is none yet. What is
 # stored in it already is not simulated again, so a run that was cut off is begun again with the same words.
