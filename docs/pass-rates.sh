@@ -2,7 +2,7 @@
 # How many simulated people pass each drill and graded case at their first attempt, as a table, from nothing but the
 # program (docs/simulated-people.md):
 #
-#   docs/pass-rates.sh FOLDER >pass-rates.md
+#   docs/pass-rates.sh FOLDER
 #
 # FOLDER is made a library of the drills and the graded cases (`seldinger demo --cases`), if it is none yet. What is
 # stored in it already is not simulated again, so a run that was cut off is begun again with the same words.
@@ -12,11 +12,11 @@ set -eu
 library=$1
 program=${SELDINGER:-seldinger} people=${PEOPLE:-12} seed=${SEED:-3}
 [ -e "$library" ] || "$program" demo --cases --no-serve --library "$library" >&2
-# The verdict is what `attempt list` says of each; a case without a rule has none, and is left out.
+# Who gave up or lost the device did not pass; a case without a rule has no verdicts.
 passed_of() {
   "$program" simulate --case "$1" --operator "$2" --people "$people" --seed "$seed" --no-pictures --json \
     --library "$library" | grep -o '"verdict": *"[a-z_]*"' |
-    awk '/passed/ { passed++ } /passed|failed/ { graded++ } END { if (graded) print passed + 0 " of " graded; else print "no rule" }'
+    awk '/"passed"/ { passed++ } !/no_rule/ { made++ } END { if (made) print passed + 0 " of " made; else print "no rule" }'
 }
 printf '| | simulated novices | simulated experts |\n|---|---|---|\n'
 "$program" case list --library "$library" | sed -n 's/^\([0-9a-f-]\{36\}\) .*/\1/p' | while read -r id; do
