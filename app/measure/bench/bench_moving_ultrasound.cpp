@@ -10,6 +10,7 @@
 #include "app/measure/bench/bench.h"
 #include "sim/base/failure.h"
 #include "sim/base/rng.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/motion.h"
 #include "sim/imaging/ultrasound/visible.h"
@@ -94,10 +95,28 @@ class Chart {
       std::fprintf(stderr, "no GL here: %s\n", failure.what());
     }
     view_.method = imaging::UltrasoundMethod::scatterers;
-    what_ = "truth per frame, no picture, ";
-    pair("cpu", "1 thread", 5 * n_, [&](const tissue::Displacement& displacement) {
-      (void)imaging::ultrasound_visible(patient_.tissue(), view_, inserted_, {}, displacement);
-    });
+    truths();
+  }
+
+  // A steep needle of which little is seen, and one that lies along the face, all of whose shaft is; in one look
+  // and in three.
+  void truths() {
+    const imaging::NeedlePose steep = *inserted_.needle;
+    const double across_mm = 0.5 * view_.depth_mm / 3.0;
+    const imaging::NeedlePose flat{steep.tip_lps_mm + glm::dvec3(across_mm, -0.4 * across_mm, 0.0),
+                                   glm::normalize(glm::dvec3(1.0, 0.0875, 0.0))};
+    for (const bool all_seen : {false, true})
+      for (const double compound_deg : {0.0, imaging::kCompoundDeg}) {
+        inserted_.needle = all_seen ? flat : steep;
+        view_.compound_deg = compound_deg;
+        what_ = std::string("truth per frame, no picture, ") + (all_seen ? "needle at 5°, " : "needle at 63°, ") +
+                (compound_deg > 0.0 ? "compounded, " : "");
+        pair("cpu", "1 thread", 5 * n_, [&](const tissue::Displacement& displacement) {
+          (void)imaging::ultrasound_visible(patient_.tissue(), view_, inserted_, {}, displacement);
+        });
+      }
+    inserted_.needle = steep;
+    view_.compound_deg = 0.0;
     what_.clear();
   }
 
