@@ -31,16 +31,16 @@ double thread_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-struct Patient {
+struct OrgansShown {
   volume::Volume volume;
   std::vector<volume::TissueClass> classes;
   std::vector<std::uint8_t> levels;
   imaging::TissueVolume tissue() const { return {&volume, classes, levels}; }
 };
 
-Patient torso() {
+OrgansShown torso_with_organs() {
   volume::Phantom made = volume::make_phantom();
-  Patient patient{std::move(made.volume), {}, {}};
+  OrgansShown patient{std::move(made.volume), {}, {}};
   patient.classes = volume::tissue_classes(patient.volume, &made.labels);
   patient.levels = imaging::echogenicity(patient.volume, patient.classes);
   imaging::show_organs(patient.volume, patient.classes, patient.levels);
@@ -54,7 +54,7 @@ constexpr std::array<const char*, 5> kOnNames = {"nothing of it", "artefacts, cl
 // A picture as the window has it: the envelope by the CPU, the screen, and of a compounded view one look a picture.
 class Pictures {
  public:
-  Pictures(const Patient& patient, const UltrasoundView& view, On on)
+  Pictures(const OrgansShown& patient, const UltrasoundView& view, On on)
       : patient_(patient), on_(on), view_(view), converter_(view, {800, 700}), compounder_(compounded(view)) {
     view_.threads = 1;
     view_.sight_law = on == On::nothing ? cases::SightLaw::echo : cases::kNewestSightLaw;
@@ -104,7 +104,7 @@ class Pictures {
     ++frame_;
   }
 
-  const Patient& patient_;
+  const OrgansShown& patient_;
   On on_;
   UltrasoundView view_;
   imaging::ScanConverter converter_;
@@ -118,7 +118,7 @@ class Pictures {
   std::uint64_t frame_ = 0;
 };
 
-BenchRow row_of(const Patient& patient, const UltrasoundView& view, On on, std::vector<double> ms,
+BenchRow row_of(const OrgansShown& patient, const UltrasoundView& view, On on, std::vector<double> ms,
                 std::vector<double> ratios) {
   BenchRow row{"ultrasound",
                std::string("picture with ") + kOnNames[static_cast<std::size_t>(on)],
@@ -149,7 +149,7 @@ BenchRow row_of(const Patient& patient, const UltrasoundView& view, On on, std::
 }  // namespace
 
 void bench_everything_on(bool quick, std::vector<BenchRow>& rows) {
-  const Patient patient = torso();
+  const OrgansShown patient = torso_with_organs();
   for (const imaging::Probe& probe : {imaging::kC52v, imaging::kL115v}) {
     UltrasoundView view;
     view.probe = probe;
