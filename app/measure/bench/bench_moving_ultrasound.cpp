@@ -20,16 +20,16 @@
 namespace seldinger::measure {
 namespace {
 
-struct Patient {
+struct MovedPatient {
   volume::Volume volume;
   std::vector<volume::TissueClass> classes;
   glm::dvec3 front_lps_mm{0.0};  // the skin before its middle
   imaging::TissueVolume tissue() const { return {&volume, classes, {}}; }
 };
 
-Patient torso() {
+MovedPatient torso() {
   volume::Phantom made = volume::make_phantom();
-  Patient patient{std::move(made.volume), {}};
+  MovedPatient patient{std::move(made.volume), {}};
   patient.classes = volume::tissue_classes(patient.volume, &made.labels);
   glm::ivec3 at = patient.volume.size_voxels / 2, skin = at;
   for (; at.y >= 0; --at.y)
@@ -41,7 +41,7 @@ Patient torso() {
 constexpr double kPressMm = 8.0;
 
 // Pressed, breathed in, a needle dragged: everything at once.
-tissue::Displacement displacement_in(const Patient& patient) {
+tissue::Displacement displacement_in(const MovedPatient& patient) {
   const std::array<tissue::SkinPress, 1> press{
       {{.at_lps_mm = patient.front_lps_mm, .inward = {0.0, 1.0, 0.0}, .radius_mm = 20.0, .depth_mm = kPressMm}}};
   const tissue::NeedleDrag needle{.entry_lps_mm = patient.front_lps_mm - glm::dvec3(25.0, 0.0, 0.0),
@@ -59,7 +59,7 @@ tissue::Displacement displacement_in(const Patient& patient) {
 
 class Chart {
  public:
-  Chart(const Patient& patient, const imaging::Probe& probe, bool quick, std::vector<BenchRow>& rows)
+  Chart(const MovedPatient& patient, const imaging::Probe& probe, bool quick, std::vector<BenchRow>& rows)
       : patient_(patient), displacement_(displacement_in(patient)), n_(quick ? 5 : 15), rows_(rows) {
     view_.probe = probe;
     view_.depth_mm = probe.radius_mm > 0.0 ? 150.0 : 50.0;
@@ -206,7 +206,7 @@ class Chart {
     row.ms_max = ms.back();
   }
 
-  const Patient& patient_;
+  const MovedPatient& patient_;
   tissue::Displacement displacement_;
   imaging::UltrasoundView view_;
   imaging::Inserted inserted_;
@@ -218,7 +218,7 @@ class Chart {
 }  // namespace
 
 void bench_moving_ultrasound(bool quick, std::vector<BenchRow>& rows) {
-  const Patient patient = torso();
+  const MovedPatient patient = torso();
   for (const imaging::Probe& probe : {imaging::kC52v, imaging::kL115v}) {
     Chart chart(patient, probe, quick, rows);
     chart.pictures();
