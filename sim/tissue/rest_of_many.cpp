@@ -12,7 +12,7 @@
 namespace seldinger::tissue {
 namespace {
 
-constexpr std::size_t kSideBySide = 8;
+constexpr std::size_t kSideBySide = 8, kWorthIt = 4;  // fewer are found sooner one by one
 struct Places {
   std::array<double, kSideBySide> x{}, y{}, z{};
 };
@@ -60,6 +60,11 @@ void rest_of(const Displacement& displacement, std::span<const glm::dvec3> at_lp
   CHECK(at_lps_mm.size() == rest_lps_mm.size());
   for (std::size_t first = 0; first < at_lps_mm.size(); first += kSideBySide) {
     const std::size_t count = std::min(kSideBySide, at_lps_mm.size() - first);
+    if (count < kWorthIt) {
+      for (std::size_t i = first; i < first + count; ++i)
+        rest_lps_mm[i] = shaders::rest_of(displacement, at_lps_mm[i], fixed_point_steps, 0);
+      continue;
+    }
     Places at, moved;
     for (std::size_t i = 0; i < kSideBySide; ++i) {  // the last one again where places run out
       const glm::dvec3& one = at_lps_mm[first + std::min(i, count - 1)];

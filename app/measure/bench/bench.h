@@ -50,6 +50,8 @@ base::Result<void> bench_library(const app::Arguments& arguments, bool quick, st
 // Every metric of an attempt of ten minutes, at the rates that trackers have.
 base::Result<void> bench_assessment(const app::Arguments& arguments, bool quick, std::vector<BenchRow>& rows);
 
+// Part of stage ultrasound: a picture with all that lies over it beside one without.
+void bench_everything_on(bool quick, std::vector<BenchRow>& rows);
 // Part of stage displacement: ultrasound of the torso, moving beside still, and how far its grids are off.
 void bench_moving_ultrasound(bool quick, std::vector<BenchRow>& rows);
 // Parts of stage haptics: a tick of two hands on a skin of some 200,000 triangles and 512³ voxels (quick: the torso

@@ -10,6 +10,7 @@
 #include "app/measure/bench/bench.h"
 #include "sim/base/failure.h"
 #include "sim/base/rng.h"
+#include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/motion.h"
 #include "sim/imaging/ultrasound/visible.h"
@@ -19,16 +20,16 @@
 namespace seldinger::measure {
 namespace {
 
-struct Patient {
+struct MovedPatient {
   volume::Volume volume;
   std::vector<volume::TissueClass> classes;
   glm::dvec3 front_lps_mm{0.0};  // the skin before its middle
   imaging::TissueVolume tissue() const { return {&volume, classes, {}}; }
 };
 
-Patient torso() {
+MovedPatient torso() {
   volume::Phantom made = volume::make_phantom();
-  Patient patient{std::move(made.volume), {}};
+  MovedPatient patient{std::move(made.volume), {}};
   patient.classes = volume::tissue_classes(patient.volume, &made.labels);
   glm::ivec3 at = patient.volume.size_voxels / 2, skin = at;
   for (; at.y >= 0; --at.y)
@@ -40,7 +41,7 @@ Patient torso() {
 constexpr double kPressMm = 8.0;
 
 // Pressed, breathed in, a needle dragged: everything at once.
-tissue::Displacement displacement_in(const Patient& patient) {
+tissue::Displacement displacement_in(const MovedPatient& patient) {
   const std::array<tissue::SkinPress, 1> press{
       {{.at_lps_mm = patient.front_lps_mm, .inward = {0.0, 1.0, 0.0}, .radius_mm = 20.0, .depth_mm = kPressMm}}};
   const tissue::NeedleDrag needle{.entry_lps_mm = patient.front_lps_mm - glm::dvec3(25.0, 0.0, 0.0),
@@ -58,7 +59,7 @@ tissue::Displacement displacement_in(const Patient& patient) {
 
 class Chart {
  public:
-  Chart(const Patient& patient, const imaging::Probe& probe, bool quick, std::vector<BenchRow>& rows)
+  Chart(const MovedPatient& patient, const imaging::Probe& probe, bool quick, std::vector<BenchRow>& rows)
       : patient_(patient), displacement_(displacement_in(patient)), n_(quick ? 5 : 15), rows_(rows) {
     view_.probe = probe;
     view_.depth_mm = probe.radius_mm > 0.0 ? 150.0 : 50.0;
@@ -94,10 +95,28 @@ class Chart {
       std::fprintf(stderr, "no GL here: %s\n", failure.what());
     }
     view_.method = imaging::UltrasoundMethod::scatterers;
-    what_ = "truth per frame, no picture, ";
-    pair("cpu", "1 thread", 5 * n_, [&](const tissue::Displacement& displacement) {
-      (void)imaging::ultrasound_visible(patient_.tissue(), view_, inserted_, {}, displacement);
-    });
+    truths();
+  }
+
+  // A steep needle of which little is seen, and one that lies along the face, all of whose shaft is; in one look
+  // and in three.
+  void truths() {
+    const imaging::NeedlePose steep = *inserted_.needle;
+    const double across_mm = 0.5 * view_.depth_mm / 3.0;
+    const imaging::NeedlePose flat{steep.tip_lps_mm + glm::dvec3(across_mm, -0.4 * across_mm, 0.0),
+                                   glm::normalize(glm::dvec3(1.0, 0.0875, 0.0))};
+    for (const bool all_seen : {false, true})
+      for (const double compound_deg : {0.0, imaging::kCompoundDeg}) {
+        inserted_.needle = all_seen ? flat : steep;
+        view_.compound_deg = compound_deg;
+        what_ = std::string("truth per frame, no picture, ") + (all_seen ? "needle at 5°, " : "needle at 63°, ") +
+                (compound_deg > 0.0 ? "compounded, " : "");
+        pair("cpu", "1 thread", 5 * n_, [&](const tissue::Displacement& displacement) {
+          (void)imaging::ultrasound_visible(patient_.tissue(), view_, inserted_, {}, displacement);
+        });
+      }
+    inserted_.needle = steep;
+    view_.compound_deg = 0.0;
     what_.clear();
   }
 
@@ -187,7 +206,7 @@ class Chart {
     row.ms_max = ms.back();
   }
 
-  const Patient& patient_;
+  const MovedPatient& patient_;
   tissue::Displacement displacement_;
   imaging::UltrasoundView view_;
   imaging::Inserted inserted_;
@@ -199,7 +218,7 @@ class Chart {
 }  // namespace
 
 void bench_moving_ultrasound(bool quick, std::vector<BenchRow>& rows) {
-  const Patient patient = torso();
+  const MovedPatient patient = torso();
   for (const imaging::Probe& probe : {imaging::kC52v, imaging::kL115v}) {
     Chart chart(patient, probe, quick, rows);
     chart.pictures();

@@ -292,6 +292,7 @@ base::Result<void> bench_ultrasound(const app::Arguments& arguments, bool quick,
   const volume::Phantom torso = volume::make_phantom();
   const Patient built_in = patient_of("torso", torso.volume, &torso.labels);
   for (const Probe& probe : {imaging::kC52v, imaging::kL115v}) stage.chart(built_in, probe, true);
+  bench_everything_on(quick, rows);
   if (!arguments.has("--ct")) return {};
   const auto source = casedb::read_source(arguments.text("--ct"));
   if (!source) return source.error();

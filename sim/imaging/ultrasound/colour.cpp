@@ -28,16 +28,33 @@ constexpr double kColourShown = 0.5;  // from so sure a cell on
 
 constexpr int kBarPx = 14, kBarHeightPx = 160, kBarInsetPx = 10;
 
-// Between four cells: `beam` and `row` count from the first's.
-glm::dvec2 between(const ColourPicture& colour, double beam, double row) {
-  const int b = std::min(static_cast<int>(beam), colour.box.end_beam - colour.box.first_beam - 2),
-            k = std::min(static_cast<int>(row), colour.rows - 2);
-  const auto cell = [&](int beams_on, int rows_on) {
-    return glm::dvec2(colour.cells[static_cast<std::size_t>(b + beams_on) * static_cast<std::size_t>(colour.rows) +
-                                   static_cast<std::size_t>(k + rows_on)]);
-  };
-  return glm::mix(glm::mix(cell(0, 0), cell(1, 0), beam - b), glm::mix(cell(0, 1), cell(1, 1), beam - b), row - k);
-}
+// A picture's cells, and what lies between four of them.
+class Cells {
+ public:
+  explicit Cells(const ColourPicture& colour)
+      : colour_(colour), beams_(colour.box.end_beam - colour.box.first_beam), flows_(colour.cells.size(), 0) {
+    for (int b = 0; b + 1 < beams_; ++b)
+      for (int k = 0; k + 1 < colour.rows; ++k)
+        for (const int place : {at(b, k), at(b + 1, k), at(b, k + 1), at(b + 1, k + 1)})
+          if (cell(place) != glm::vec2(0.0F)) flows_[static_cast<std::size_t>(at(b, k))] = 1;
+  }
+  // `beam` and `row` count from the first's. Nothing where nothing flows, as nearly everywhere.
+  std::optional<glm::dvec2> between(double beam, double row) const {
+    const int b = std::min(static_cast<int>(beam), beams_ - 2),
+              k = std::min(static_cast<int>(row), colour_.rows - 2);
+    if (flows_[static_cast<std::size_t>(at(b, k))] == 0) return std::nullopt;
+    const auto of = [&](int place) { return glm::dvec2(cell(place)); };
+    return glm::mix(glm::mix(of(at(b, k)), of(at(b + 1, k)), beam - b),
+                    glm::mix(of(at(b, k + 1)), of(at(b + 1, k + 1)), beam - b), row - k);
+  }
+
+ private:
+  int at(int beam, int row) const { return beam * colour_.rows + row; }
+  const glm::vec2& cell(int place) const { return colour_.cells[static_cast<std::size_t>(place)]; }
+  const ColourPicture& colour_;
+  int beams_;
+  std::vector<unsigned char> flows_;  // in one of a cell, the next beam's and those below them
+};
 
 }  // namespace
 
@@ -149,6 +166,7 @@ void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c);
   };
   const double row_mm = (colour.box.to_mm - colour.box.from_mm) / rows;
+  const Cells cells(colour);
   numbers.assign(at(0, height), kNoColour);
   std::vector<unsigned char> inside(numbers.size(), 0);
   for (int r = 0; r < height; ++r)
@@ -159,11 +177,12 @@ void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs
                    row = (place->depth_mm - colour.box.from_mm) / row_mm;
       if (beam < 0.0 || beam > beams - 1.0 || row < 0.0 || row > rows) continue;
       inside[at(c, r)] = 1;
-      const glm::dvec2 mean = between(colour, beam, std::clamp(row - 0.5, 0.0, rows - 1.0));
-      const double sure = std::sqrt(mean.x * mean.x + mean.y * mean.y);
+      const auto mean = cells.between(beam, std::clamp(row - 0.5, 0.0, rows - 1.0));
+      if (!mean) continue;
+      const double sure = std::sqrt(mean->x * mean->x + mean->y * mean->y);
       if (sure < kColourShown) continue;
       // Half the angle, whose tangent has no second meaning.
-      const double share = 2.0 / std::numbers::pi * base::exact_atan(mean.y / std::max(sure + mean.x, 1e-12));
+      const double share = 2.0 / std::numbers::pi * base::exact_atan(mean->y / std::max(sure + mean->x, 1e-12));
       numbers[at(c, r)] = static_cast<unsigned char>(kColourStill + std::lround(kColourSteps * share));
     }
   for (int r = 1; r + 1 < height; ++r)
