@@ -24,6 +24,9 @@ constexpr double kSureVote = 20.0;  // against a sure lung: a mattress that lend
 // bulge into it, so that it is about as large as the triangle that it fills, and it grows all the way to that end.
 // What a plane cuts off a round lumen is 1.33 triangles where it is thinnest and π/2 through the middle.
 constexpr double kNookTriangles = 1.4, kNookGrows = 1.4, kNookEndPart = 0.9;
+// What is smaller than its triangle is no round lumen at all, however it is cut: it may open to both ends, and
+// grows from where it is narrowest.
+constexpr double kBulgingTriangles = 0.9;
 constexpr double kLeastNookMm = 20.0, kLeastNookMl = 5.0;  // less says nothing of a shape
 constexpr int kSidesOfTheRoom = 3;  // of the field's box, touched by one run: no lung or bowel is so wide
 constexpr double kTogether = 0.3;   // of the smaller of two pieces lies beside the other
@@ -285,9 +288,10 @@ class EdgeAir {
     if (sum.beyond > kNookTriangles * sum.triangles || sum.voxels * voxel_mm3 < kLeastNookMl * 1000.0 ||
         static_cast<double>(of.voxels.size()) * slice_mm < kLeastNookMm)
       return false;
-    const double largest = *std::max_element(of.voxels.begin(), of.voxels.end());
-    const auto opens = [&](double at_end, double at_other) {
-      return at_end >= kNookEndPart * largest && at_end >= kNookGrows * at_other;
+    const auto [least, largest] = std::minmax_element(of.voxels.begin(), of.voxels.end());
+    const bool bulging = sum.beyond <= kBulgingTriangles * sum.triangles;
+    const auto opens = [&, least_voxels = *least, most_voxels = *largest](double at_end, double at_other) {
+      return at_end >= kNookEndPart * most_voxels && at_end >= kNookGrows * (bulging ? least_voxels : at_other);
     };
     const bool to_first = of.first == 0, to_last = of.first + static_cast<int>(of.voxels.size()) == slices_.count();
     return (to_first && opens(of.voxels.front(), of.voxels.back())) ||

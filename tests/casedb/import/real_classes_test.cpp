@@ -91,8 +91,8 @@ TEST_F(RealClasses, OrgansAreNamedRightlyOrNotAtAll) {
     for (const FoundOrgan organ :
          {FoundOrgan::right_lung, FoundOrgan::left_lung, FoundOrgan::vertebrae, FoundOrgan::ribs})
       EXPECT_GT(ml_of(organ), 5.0) << name;
-    for (const FoundOrgan organ :
-         {FoundOrgan::liver, FoundOrgan::right_kidney, FoundOrgan::left_kidney, FoundOrgan::vena_cava})
+    for (const FoundOrgan organ : {FoundOrgan::liver, FoundOrgan::gallbladder, FoundOrgan::right_kidney,
+                                   FoundOrgan::left_kidney, FoundOrgan::vena_cava})
       EXPECT_EQ(ml_of(organ), 0.0) << name;
     if (std::string(name) != "ct-abdomen-contrast-dicom") {
       for (const FoundOrgan organ : {FoundOrgan::spleen, FoundOrgan::aorta}) EXPECT_EQ(ml_of(organ), 0.0) << name;

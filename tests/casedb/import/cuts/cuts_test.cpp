@@ -161,6 +161,22 @@ TEST(CutSkin, OfANookBetweenThighsIsKept) {
         ASSERT_EQ(body[made.index(i, j, k)], thigh(i, j, k) ? 1 : 0) << i << " " << j << " " << k;
 }
 
+// As between buttocks: a nook that opens to both ends of the CT, narrowest in between.
+TEST(CutSkin, OfANookThatOpensToBothEndsIsKept) {
+  volume::Volume made = volume::make_volume({120, 56, 24}, {2, 2, 3}, glm::dmat3(1.0), glm::dvec3(0.0));
+  const auto side = [](int i, int j, int k) {
+    return std::hypot(std::abs(i - 59.5) - 30.0 - 0.15 * std::abs(k - 10), j - 27.5) <= 32.0;
+  };
+  for (int k = 0; k < 24; ++k)
+    for (int j = 0; j < 56; ++j)
+      for (int i = 0; i < 120; ++i) made.hu[made.index(i, j, k)] = side(i, j, k) ? 40 : -1000;
+  const std::vector<std::uint8_t> body = volume::body_mask(made);
+  for (int k = 0; k < 24; ++k)
+    for (int j = 0; j < 56; ++j)
+      for (int i = 0; i < 120; ++i)
+        ASSERT_EQ(body[made.index(i, j, k)], side(i, j, k) ? 1 : 0) << i << " " << j << " " << k;
+}
+
 // Gas over a level of fluid, cut obliquely, is as much of a wedge; it reaches no end of the CT that it opens to.
 TEST(CutSkin, OfGasOverFluidThereIsNone) {
   volume::Volume made = volume::make_volume({90, 60, 40}, {2, 2, 3}, glm::dmat3(1.0), glm::dvec3(0.0));
