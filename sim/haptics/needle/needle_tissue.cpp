@@ -44,7 +44,8 @@ constexpr std::array<NeedleTissueRow, volume::kTissueClasses> kTissues{{
      kNothingYet},
     {TissueClass::skin,
      {0.010, 0.60, 0.25, 2.5, 9.5},
-     "rupture within 2-4 N at 18-22 G (van Gerwen 2012, Healey 2005, recalled); plateau, dent, stiffness (design)",
+     "rupture within 2-4 N at 18-22 G (van Gerwen 2012, Healey 2005, recalled), nearly the same at any speed "
+     "(Schneider 1978; Frick, J Biomech 2001: 1-10 mm/s, abstracts read); plateau, dent, stiffness (design)",
      kNothingYet},
     {TissueClass::connective, {0.020, 1.5, 0.25, 2.6, 8.0}, "(design): above muscle", kNothingYet},
     {TissueClass::vessel, {0.005, 0.10, 0.10, 0.8, 4.0}, "(design): a wall, then blood", kNothingYet},

@@ -30,7 +30,7 @@ struct Target {
 constexpr auto kSupine = cases::PatientPosition::supine, kProne = cases::PatientPosition::prone;
 
 std::vector<Target> targets() {
-  const std::vector<const char*> kidney = {"colon", "lung", "pleural_recess", "liver", "spleen"},
+  const std::vector<const char*> kidney = {"renal_sinus", "collecting_system", "colon", "lung", "pleural_recess"},
                                  neck = {"carotid_artery", "lung", "airway", "thyroid", "nerve"},
                                  groin = {"femoral_vein", "nerve", "small_bowel"};
   return {
@@ -46,7 +46,7 @@ std::vector<Target> targets() {
        {-102.0, -22.0, 26.0},
        7.5,
        {"lung", "pleural_recess", "intercostal_bundle", "colon", "gallbladder"}},
-      {"right kidney", volume::Region::torso, kProne, {-68.0, 40.0, -50.0}, 4.0, kidney},
+      {"right kidney", volume::Region::torso, kProne, {-70.0, 53.0, -58.0}, 7.0, kidney},
       {"left kidney", volume::Region::torso, kProne, {70.0, 53.0, -42.0}, 7.0, kidney},
       {"right groin", volume::Region::groin, kSupine, {-75.0, -48.0, -240.0}, 4.0, groin},
       {"left groin", volume::Region::groin, kSupine, {75.0, -48.0, -240.0}, 4.0, groin},
