@@ -291,7 +291,7 @@ Command case_confirm_command() {
       .acts = true,
       .named = true,
       .summary =
-          "Keeps that somebody looked through a case's slices and saw no text burned in: publishing asks for it.",
+          "Records that somebody looked through a case's slices and saw no burned-in text: publishing needs it.",
       .run = &run_case_confirm};
 }
 

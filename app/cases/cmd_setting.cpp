@@ -141,7 +141,7 @@ Command case_setting_command() {
           .options = kSettingOptions,
           .acts = true,
           .summary =
-              "Sets what a case asks of whoever attempts it: guidance, needle, patient, limits, pass rule. What is "
+              "Sets what a case asks of the trainee: guidance, needle, patient, limits, pass rule. What is "
               "not given stays.",
           .run = &run_case_setting};
 }

@@ -14,7 +14,7 @@ constexpr ErrorCode kFilesCodes[] = {
      "Give a name that is free, or an empty folder."},
     {"bad_key", kRefuses, "A key file does not hold 64 hexadecimal digits.",
      "Use a key file that this program made."},
-    {"bad_csv", kRefuses, "A CSV file is none, lacks a column, or a row is not as its header says.",
+    {"bad_csv", kRefuses, "A file is not CSV, lacks a column, or has a row that does not match its header.",
      "Mend the rows that are named."},
     {"truncated", kRefuses, "A file, or its pixels, end too early.", "Copy or export it again."},
     {"reader_died", kRefuses,
@@ -29,7 +29,7 @@ constexpr ErrorCode kCallCodes[] = {
      "The command was called wrongly: on standard error the line begins `usage: `, and this is its code with "
      "`--json`.",
      "`seldinger help COMMAND`."},
-    {"ambiguous", kRefuses, "Several cases, attempts or others are called so, or their ids or titles begin so.",
+    {"ambiguous", kRefuses, "Several cases, attempts or others have this name, id or title, or begin with it.",
      "Give more of the id: the error lists them."}};
 
 constexpr ErrorCode kLibraryCodes[] = {
@@ -57,7 +57,7 @@ constexpr ErrorCode kLibraryCodes[] = {
     {"bad_signature", kRefuses,
      "The bundle's signature is not that of the key it names: it was changed, or is forged.",
      "Ask its sender for another copy."},
-    {"bundle_values", kRefuses, "A value in a case of the bundle is none that this program's commands store.",
+    {"bundle_values", kRefuses, "A case in the bundle holds a value that this program's commands never store.",
      "Ask its sender for a bundle that this program wrote."},
     {"key_known", kRefuses, "The key, or a key of that name, is among the trusted ones already.",
      "`bundle trust list` shows them."},
@@ -135,10 +135,10 @@ constexpr ErrorCode kCaseCodes[] = {
      "Give a number."},
     {"has_attempts", kRefuses, "Attempts were made on this draft, so that it no longer changes.",
      "`seldinger case version` makes the next version."},
-    {"not_a_draft", kRefuses, "Only a draft is changed.", "`seldinger case version` makes the next version."},
+    {"not_a_draft", kRefuses, "Only a draft can be changed.", "`seldinger case version` makes the next version."},
     {"bad_state", kRefuses, "The case or curriculum is not in the state that this step starts from.",
      "The message names the state."},
-    {"checks_failed", kRefuses, "The case does not hold its check.",
+    {"checks_failed", kRefuses, "The case fails its check.",
      "`seldinger case check`; each `finding:` line names one reason."},
     {"lesion_present", kRefuses | kFinds, "There is no lesion.", "`seldinger case lesion` adds one."},
     {"lesion_inside_body", kRefuses | kFinds, "A lesion lies or sticks out of the body.",
@@ -169,7 +169,7 @@ constexpr ErrorCode kPeopleCodes[] = {
     {"no_person", kRefuses, "There is no such person in the library.", ""},
     {"name_taken", kRefuses, "The name is in use: by an account, or by a structure of the case.",
      "Choose another."},
-    {"bad_name", kRefuses, "A login name has other than 1 to 64 printable characters.", "Choose another."},
+    {"bad_name", kRefuses, "A login name must have 1 to 64 printable characters.", "Choose another."},
     {"weak_password", kRefuses,
      "A password is shorter than 8 characters, longer than 128 bytes, or among those that are guessed first.",
      "Choose another, such as four words that have nothing to do with each other."},
@@ -248,7 +248,7 @@ constexpr ErrorCode kStudyCodes[] = {
      "Freeze the plan; `seldinger study look` tells counts of all together."}};
 
 constexpr ErrorCode kAttemptCodes[] = {
-    {"bad_station_name", kRefuses, "A station's name has not 1 to 40 letters, digits, spaces and - _ .",
+    {"bad_station_name", kRefuses, "A station's name must be 1 to 40 letters, digits, spaces and - _ .",
      "Give another name."},
     {"attempt_runs", kRefuses, "Somebody is at this attempt right now.", "Wait until it has ended."},
     {"not_simulated", kRefuses, "A person made this attempt, not a simulated operator.",
@@ -298,7 +298,7 @@ constexpr ErrorCode kAttemptCodes[] = {
 constexpr ErrorCode kQuestionnaireCodes[] = {
     {"bad_form", kRefuses, "A questionnaire is not as it should be; the findings name each place.",
      "Mend the places; docs/questionnaires.md tells the fields."},
-    {"form_taken", kRefuses, "The library has that version in that language, in other words.",
+    {"form_taken", kRefuses, "The library already has that version in that language, with a different wording.",
      "Give the new wording a new version."},
     {"form_differs", kRefuses, "A translation asks otherwise than the version does in its other languages.",
      "Translate words alone; what asks otherwise is a new version."},
@@ -545,7 +545,7 @@ constexpr ErrorCode kEnvironmentCodes[] = {
      "Give `--behind` the name as browsers write it, without a path."},
     {"too_many_jobs", kRefuses, "Too many of somebody's jobs have not ended.", "Wait, or cancel one under /jobs."},
     {"no_job", kRefuses, "There is no such job, or it is another's.", "/jobs lists one's own."},
-    {"bad_piece", kRefuses, "What was sent for an import is no next piece of a file.", "Send the files again."},
+    {"bad_piece", kRefuses, "What was sent is not the next piece of a file.", "Send the files again."},
     {"port_taken", kRefuses, "Cannot listen on the port, most often because another program does.",
      "Give another `--port`; 0 takes any free one."},
     {"disk", kFails, "The disk is full, or a file or folder cannot be made, read or written.",

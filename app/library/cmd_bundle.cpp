@@ -136,7 +136,7 @@ constexpr Option kBundleOptions[] = {kLibrary,
 constexpr Option kImportOptions[] = {kLibrary, kNewLibrary, kJson};
 
 constexpr Option kTrustOptions[] = {
-    kLibrary, {"--label", "NAME", "add: what signatures of that key are told as"}, kJson};
+    kLibrary, {"--label", "NAME", "add: the name shown for that key's signatures"}, kJson};
 
 }  // namespace
 

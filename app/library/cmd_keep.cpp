@@ -121,7 +121,7 @@ int run_check(const Arguments& arguments) {
 
 constexpr Option kCheckOptions[] = {
     kLibrary,
-    {"--repair", nullptr, "remove what is nobody's: files that no row names, temporary files without a writer"},
+    {"--repair", nullptr, "remove leftovers: files that no row names, temporary files without a writer"},
     {"--audit-head", "COUNT:HASH",
      "tells whether the row that `seldinger audit` once printed as the last still stands"},
     {"--from", "BACKUP", "with --repair: files and values that are hurt come back from this backup of the library"},

@@ -245,7 +245,7 @@ Command user_unlock_command() {
           .options = kLibraryOnly,
           .acts = true,
           .summary =
-              "Lets somebody log in again at once whom wrong passwords delay, here, on the dashboard and at a "
+              "Lets somebody whom wrong passwords delay log in again at once: here, on the dashboard and at a "
               "window.",
           .run = &run_user_unlock};
 }

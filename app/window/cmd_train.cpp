@@ -144,7 +144,7 @@ Command train_command() {
           .options = kTrainOptions,
           .summary =
               "The trainer's window: log in, choose a case, puncture under guidance with mouse and keys or two "
-              "arms, and be told how it went.",
+              "arms, and get feedback on it.",
           .run = &run_train};
 }
 

@@ -156,7 +156,7 @@ void add_cusum(Html& html, LearnedCourse& course) {
         .raw(": from there on failures count as rare. ");
   else
     html.raw("The limit is not reached yet. ");
-  html.raw("It stands where of learners who fail ").text(share_text(rule.inadequate));
+  html.raw("It is set so that, of learners who fail ").text(share_text(rule.inadequate));
   html.raw(" of the time ").text(share_text(*further(answer, "false_declaration")));
   html.raw(" reach it within ").text(std::to_string(rule.attempts)).raw(" attempts, and of those who fail ");
   html.text(share_text(rule.adequate)).raw(" of the time ").text(share_text(*further(answer, "true_declaration")));

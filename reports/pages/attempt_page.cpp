@@ -283,7 +283,7 @@ std::string attempt_pictures_page(const Visitor& visitor, const AttemptView& att
     return page("Pictures of an attempt", visitor, html);
   }
   html.raw(
-      "<p class=\"note\">Drawn anew from the recording, which was run again tick for tick and held against what "
+      "<p class=\"note\">Redrawn from the recording, which was replayed tick for tick and compared with what "
       "was "
       "recorded.</p>\n");
   html.raw(kKeptMarkup);

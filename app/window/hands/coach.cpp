@@ -170,7 +170,7 @@ std::string hint_words(const cases::Case& scene, const Seen& seen, int help, con
     return {};
   const bool numbers = help > 1;
   if (seen.moment.state.fire.fired) return "It is said. Finish (F9).";
-  if (seen.frozen) return "The picture stands still: F lets it go on.";
+  if (seen.frozen) return "The picture is frozen: press F to unfreeze it.";
   const Hints hints(scene, seen, view);
   if (!seen.inserted && seen.press_mm < kPressedMm)
     return "Press the probe on: " + hints.by(HeldTool::probe, "wheel over the room, or Page Down") + ".";

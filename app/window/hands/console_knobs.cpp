@@ -37,7 +37,7 @@ std::string colour_words(std::span<const cases::Structure> structures) {
   };
   std::string words =
       "colour Doppler (V): red flows towards the probe, blue away from it; flow across the beam does not show";
-  if (flow.empty()) return words + "\nof no vessel in this case is the flow known";
+  if (flow.empty()) return words + "\nthe flow is not known in any vessel of this case";
   words += list("\nit shows the flow in", flow.names());
   if (!flow.unknown().empty()) words = list(words + "\nhow blood flows is not known in", flow.unknown());
   return words + "\ndrag its box over the picture; a double click makes it large again";

@@ -46,7 +46,7 @@ void draw_hands(const casedb::CaseRow& row) {
     const char *key, *words, *without_probe;  // empty: the probe's alone
   };
   constexpr const char *kFiner = "makes everything ten times finer",
-                       *kFires = "fires; an access needle is declared to be there",
+                       *kFires = "fires; with an access needle, says that you are there",
                        *kViews = "views of the room; with Alt the mouse turns the view",
                        *kSwap = "the room in the picture's place; the console folded",
                        *kPause = "pause; begin again";
@@ -80,7 +80,7 @@ void draw_hands(const casedb::CaseRow& row) {
 std::string interrupted_words(const casedb::OpenAttempt& attempt) {
   return "Your attempt at this case was interrupted after " +
          reports::number_text(cases::kChunkSeconds * attempt.chunks, 0) +
-         " s. If you begin a new one, it is stored as it stands.";
+         " s. If you start a new one, the interrupted one is stored as it is.";
 }
 
 // What the line before asks for, while the mouse is on it.

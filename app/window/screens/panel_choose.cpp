@@ -175,7 +175,7 @@ void ChoosePanel::draw_import(Trainer& trainer, const Keys& keys) {
   ImGui::SetNextWindowSize({std::min(scaled(640.0F), viewport->WorkSize.x - 40.0F), 0.0F});
   if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) return;
   heading("Import a CT");
-  quiet("A folder of DICOM slices, or a file: DICOM, NIfTI, NRRD, MetaImage. Who it is of is left out.");
+  quiet("A folder of DICOM slices, or a file: DICOM, NIfTI, NRRD, MetaImage. Identifying data are left out.");
   ImGui::TextUnformatted("Folder or file (may be dropped on the window)");
   ImGui::SetNextItemWidth(-1.0F);
   if (std::exchange(import_begins_, false)) ImGui::SetKeyboardFocusHere();

@@ -126,7 +126,7 @@ void MonitorPanel::draw_calipers_and_keep(bool calipers) {
       measuring_ = !measuring_;
       if (measuring_) calipers_.clear();
     }
-    tip("click both ends, drag to mend: two of them, and the ellipse they span");
+    tip("click both ends, drag to correct; two lines also give the ellipse they span");
     ImGui::SameLine();
   }
   if (ImGui::Button("Save (T)")) keep();

@@ -89,8 +89,8 @@ void draw_own_attempts(const Debrief& debrief) {
     if (one.attempt_id == debrief.attempt.attempt_id)
       draw->AddCircleFilled({x, std::max(corner.y + 3.0F, top - 5.0F)}, 2.5F, IM_COL32(230, 230, 230, 255));
   }
-  const std::string words = "Of each, oldest first, what it met of the " + std::to_string(most) +
-                            " things that are asked; green: passed, " + std::to_string(passes) + " of " +
+  const std::string words = "For each, oldest first, how many it met of the " + std::to_string(most) +
+                            " things asked for; green: passed, " + std::to_string(passes) + " of " +
                             std::to_string(debrief.own.size()) + ". Dot: this one.";
   quiet(words.c_str());
   note_item(words.c_str());

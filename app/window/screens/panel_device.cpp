@@ -24,7 +24,7 @@ StationDevice device_of(const Arms& arms, std::size_t side) {
 }
 
 std::string stands_words(const devices::Calibration& calibration) {
-  if (calibration.points.empty()) return "not calibrated: its axes are taken for the template's";
+  if (calibration.points.empty()) return "not calibrated: its axes are assumed to be the template's";
   char words[96];
   std::snprintf(words, sizeof words, "calibrated, off by %.2f mm at most", calibration.residual_max_mm);
   return words;
@@ -87,7 +87,7 @@ void DevicePanel::draw_gains(Trainer& trainer) {
   if (usable < gains.force_share) {
     char words[120];
     std::snprintf(words, sizeof words,
-                  "So that the hand comes to rest, a longer travel of the tool has at most %.0f %% of the force.",
+                  "To keep the hand stable, this longer travel of the tool allows at most %.0f %% of the force.",
                   100.0 * usable);
     quiet(words);
   }
@@ -95,7 +95,7 @@ void DevicePanel::draw_gains(Trainer& trainer) {
   const devices::DeviceGains kept = *gains_;
   gains_.reset();
   if (trainer.change_station([&](Station& station) { station[kSideNames[side_]].gains = kept; }))
-    kept_ = "The arm is set so from the next attempt on.";
+    kept_ = "These settings apply from the next attempt on.";
 }
 
 void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& other) {

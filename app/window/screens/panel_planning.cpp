@@ -97,7 +97,7 @@ std::optional<glm::dvec3> PlanningRoom::draw(const std::shared_ptr<const session
   ImDrawList* draw = ImGui::GetWindowDrawList();
   if (!prepare(task)) {
     draw->AddRectFilled(corner, end, IM_COL32(60, 64, 68, 255));
-    shadowed(draw, {corner.x + 12.0F, corner.y + 10.0F}, "in 3-D: it is being made …");
+    shadowed(draw, {corner.x + 12.0F, corner.y + 10.0F}, "preparing the 3-D view …");
     return std::nullopt;
   }
   note_item("in 3-D");  // once it is made
@@ -323,7 +323,7 @@ void PlanningPanel::draw_words(Trainer& trainer, const session::Task& task) {
     for (const std::string& one : warnings_of(*way_)) against += (against.empty() ? "It goes " : "; ") + one;
     ImGui::PushStyleColor(ImGuiCol_Text,
                           against.empty() ? ImVec4(0.45F, 0.85F, 0.55F, 1.0F) : ImVec4(0.96F, 0.58F, 0.40F, 1.0F));
-    against = against.empty() ? "It meets nothing that it has to keep out of." : against + ".";
+    against = against.empty() ? "It meets nothing that it must avoid." : against + ".";
     ImGui::TextWrapped("%s", against.c_str());
     ImGui::PopStyleColor();
     note_item(against.c_str());

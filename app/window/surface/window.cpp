@@ -182,7 +182,7 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
                        mode != nullptr ? mode->height : settings.height, settings.title.c_str(), monitor, nullptr);
   if (parts_->window == nullptr) {
     glfwTerminate();
-    throw base::Failure("gl", "no window with OpenGL 4.3 can be had");
+    throw base::Failure("gl", "cannot open a window with OpenGL 4.3");
   }
   if (mode == nullptr)
     glfwSetWindowSizeLimits(parts_->window, kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);

@@ -240,7 +240,7 @@ std::string admin_start_page(const Visitor& visitor, const AdminStart& start) {
   html.raw(
       "</dl>\n<ul>\n<li><a href=\"/log-ins\">Who has to wait before the next try</a></li>\n<li><a "
       "href=\"/audit\">Who did what: the audit log</a></li>\n<li><a href=\"/cases\">Cases</a></li>\n<li><a "
-      "href=\"/healthz\">Whether the server stands</a>, <a href=\"/openapi.json\">what it answers</a>: for "
+      "href=\"/healthz\">Whether the server is up</a>, <a href=\"/openapi.json\">what it answers</a>: for "
       "programs</li>\n</ul>\n<p class=\"why\">Accounts are kept with <code>seldinger user</code>, backups with "
       "<code>seldinger backup</code>.</p>\n");
   return page("This server", visitor, html);

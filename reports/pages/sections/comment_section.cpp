@@ -8,7 +8,7 @@ Html comment_section(const AttemptView& attempt, const std::string& form_token) 
   Html html;
   if (attempt.comments.empty() && form_token.empty()) return html;
   html.raw("<section class=\"comments\" aria-labelledby=\"comments\">\n<h2 id=\"comments\">Comments</h2>\n");
-  if (attempt.comments.empty()) html.raw("<p class=\"note\">Nobody has said anything of it yet.</p>\n");
+  if (attempt.comments.empty()) html.raw("<p class=\"note\">Nobody has commented on it yet.</p>\n");
   if (!attempt.comments.empty()) html.raw("<dl class=\"definitions\">\n");
   for (const CommentView& one : attempt.comments) {
     html.raw("<dt data-at-s=\"").text(number_text(one.comment.at_s, 1)).raw("\">At ");

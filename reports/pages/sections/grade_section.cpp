@@ -92,7 +92,7 @@ void add_score(Html& html, const casedb::AttemptGrade& grade) {
   if (grade.experts.standard()) html.text(" " + bands_note());
   html.raw("</p>\n<p>Score: ")
       .text(score_text(grade.score))
-      .raw(". <span class=\"why\">It stands beside the result and changes nothing of it.</span></p>\n");
+      .raw(". <span class=\"why\">It is shown beside the result and does not change it.</span></p>\n");
   if (grade.score.value) {
     html.raw(
         "<table>\n<caption>What the score is made of</caption>\n<thead><tr><th scope=\"col\">Metric</th><th "

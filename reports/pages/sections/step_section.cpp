@@ -66,7 +66,7 @@ Html step_section(std::span<const StepResult> steps) {
   if (steps.empty())
     html.raw("<p class=\"note\">No steps are stored with this attempt.</p>\n");
   else
-    html.raw("<p class=\"note\">A name opens what the step is, and how it is told.</p>\n");
+    html.raw("<p class=\"note\">Click a name to see what the step is and how it is recognised.</p>\n");
   if (!asked.empty()) {
     add_legend(html, steps);
     html.raw(

@@ -154,7 +154,7 @@ void EditorPanel::draw_rehearsal(CaseEditor& editor) {
   if (noted_button("Can it be met?###rehearsal")) editor.rehearse();
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("simulated operators try it as it is, graded and forgotten: needs a lesion and a rule");
+    ImGui::SetTooltip("simulated operators try it as it is; graded, not kept. It needs a lesion and a rule");
   if (now.error) ImGui::TextWrapped("It could not be tried: %s", now.error->text.c_str());
   if (!now.found) return;
   const RehearsalWords words = words_of(*now.found);
@@ -248,7 +248,7 @@ void EditorPanel::draw_actions(Trainer& trainer) {
     if (noted_button("Publish to my cohort", half)) ask_to_publish(editor, true);
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-      ImGui::SetTooltip("what no second person has seen is for your own cohort; every check must hold");
+      ImGui::SetTooltip("a case no second person has seen goes only to your own cohort; every check must hold");
   } else if (review) {
     if (noted_button("Return to draft", half)) editor.judge(false, note_.data());
     const bool approved = casedb::review_of(editor.decisions()).has_value();
