@@ -133,9 +133,9 @@ void add_picture(Html& html, const AttemptView& attempt, const cases::Recording*
     html.raw("<figure><img src=\"/attempts/")
         .text(row.attempt_id)
         .raw("/picture.png\" alt=\"")
-        .text(xray         ? "The fluoroscope's last image before the trigger fell, with the needle in it"
-              : ultrasound ? "Ultrasound picture under the probe when the trigger fell"
-                           : "Grey CT plane under the probe when the trigger fell, with the needle in it")
+        .text(xray         ? "The fluoroscope's last image before the trigger was pressed, with the needle in it"
+              : ultrasound ? "Ultrasound picture under the probe when the trigger was pressed"
+                           : "Grey CT plane under the probe when the trigger was pressed, with the needle in it")
         .text(outcome == "Yes"  ? "; the target was hit"
               : outcome == "No" ? "; the target was missed"
                                 : "")

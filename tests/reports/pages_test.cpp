@@ -173,7 +173,7 @@ TEST(AttemptPage, EveryStepOpensWhatItIsAndEveryMarkHasItsLegend) {
     EXPECT_GE(count_of(section, ">" + std::string(mark) + "</span>"), 1U) << mark;
     EXPECT_EQ(count_of(section, "<dt>" + std::string(mark) + "</dt>"), 1U) << mark;
   }
-  EXPECT_THAT(section, HasSubstr("this result was told by version " + std::to_string(now - 1)));
+  EXPECT_THAT(section, HasSubstr("this result was judged by version " + std::to_string(now - 1)));
   EXPECT_THAT(section, HasSubstr("<dd>the needle is not a core needle</dd>"));
 }
 
