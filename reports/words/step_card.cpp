@@ -104,7 +104,7 @@ Card step_card(std::string_view id, int version) {
   Card card{std::string(id), step_label(id), 0, "", {}};
   const StepInfo* info = assessment::find_step(id);
   if (info == nullptr) {
-    card.definition = "This program does not know the step: another version of it stored the result.";
+    card.definition = "This program does not know the step: another version of the program stored the result.";
     return card;
   }
   card.version = assessment::kStepsVersion;
