@@ -47,7 +47,7 @@ Command stats_command() {
           .max_positionals = 1,
           .options = kStatsOptions,
           .summary =
-              "Answers one statistical test from a CSV file: an estimate with its interval, or why there is "
+              "Runs one statistical test on a CSV file and gives an estimate with its interval, or why there is "
               "none. `seldinger help --statistics` lists the tests with their columns and options.",
           .run = &run_stats};
 }

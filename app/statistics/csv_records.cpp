@@ -34,12 +34,12 @@ bool CsvRecords::take_cell(std::string& cell, bool& quoted) {
     rest_.remove_prefix(letters.size());
     cell = letters.substr(0, letters.find_last_not_of(" \t") + 1);
     if (cell.find('"') != std::string::npos)
-      fault_ = "a quotation mark stands within a cell that does not begin with one";
+      fault_ = "a quotation mark is inside a cell that does not begin with one";
   }
   if (fault_ != nullptr || rest_.empty()) return false;
   const char after = rest_.front();
   if (quoted && after != separator_ && after != '\r' && after != '\n') {
-    fault_ = "something stands between a closing quotation mark and the end of its cell";
+    fault_ = "there is something between a closing quotation mark and the end of its cell";
     return false;
   }
   rest_.remove_prefix(1);

@@ -103,7 +103,7 @@ class TableReader {
  private:
   static std::string note_of(const std::string& option) {
     return "Labels of " + option +
-           " differ in capitals, blanks or look-alike letters only: they count as different ones.";
+           " differ only in capitals, blanks or look-alike letters: they count as different ones.";
   }
 
   std::size_t place_of(const std::string& name, const std::vector<std::string>& header) {
@@ -112,7 +112,7 @@ class TableReader {
       bad("there is no column " + shown(name) + " among the " + std::to_string(header.size()) + " of the header");
       return 0;
     }
-    if (std::find(found + 1, header.end(), name) != header.end()) bad("column " + shown(name) + " stands twice");
+    if (std::find(found + 1, header.end(), name) != header.end()) bad("column " + shown(name) + " occurs twice");
     return static_cast<std::size_t>(found - header.begin());
   }
 
@@ -125,7 +125,7 @@ class TableReader {
     const bool by_comma = std::count(cell.begin(), cell.end(), ',') == 1 &&
                           cell.find_first_not_of("+-0123456789,eE") == std::string::npos;
     bad(row + ", column " + shown(column) +
-        (by_comma ? " has a decimal comma: a point is wanted" : " holds no finite number"));
+        (by_comma ? " has a decimal comma: use a point" : " holds no finite number"));
     return kMissing;
   }
 
@@ -142,7 +142,7 @@ class TableReader {
 base::Result<ReadTable> table_in_csv(const std::string& text, const TableColumns& columns) {
   std::string_view rest = text;
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
-  if (!casedb::is_text(rest)) return base::Error{"bad_csv", "it is no text in UTF-8", {}};
+  if (!casedb::is_text(rest)) return base::Error{"bad_csv", "it is not text in UTF-8", {}};
   CsvRecords records(rest, separator_of(rest));
   TableReader reader(columns);
   std::vector<std::string> cells;

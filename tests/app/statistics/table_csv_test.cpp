@@ -101,7 +101,7 @@ TEST(TableCsv, NumbersOfEverySizeKeepTheirBits) {
 }
 
 TEST(TableCsv, TellsEveryFault) {
-  EXPECT_EQ(faults_in("score,group,score\n1,2,3\n"), Lines{"column \"score\" stands twice"});
+  EXPECT_EQ(faults_in("score,group,score\n1,2,3\n"), Lines{"column \"score\" occurs twice"});
   EXPECT_EQ(faults_in("a,b\n1,2\n"), (Lines{"there is no column \"score\" among the 2 of the header",
                                             "there is no column \"group\" among the 2 of the header"}));
   EXPECT_EQ(
@@ -111,16 +111,16 @@ TEST(TableCsv, TellsEveryFault) {
              "row 5, column \"score\" holds no finite number", "row 6, column \"score\" holds no finite number",
              "row 7, column \"score\" holds no finite number", "row 8, column \"score\" holds no finite number"}));
   EXPECT_EQ(faults_in("score;group\n1,5;a\n"),
-            Lines{"row 1, column \"score\" has a decimal comma: a point is wanted"});
+            Lines{"row 1, column \"score\" has a decimal comma: use a point"});
   EXPECT_EQ(faults_in("score,group\n1,\"a\n2,b\n"), Lines{"after row 0, a quotation mark is not closed"});
   EXPECT_EQ(faults_in("score,group\n1,a\n2,\"a\"b\n"),
-            Lines{"after row 1, something stands between a closing quotation mark and the end of its cell"});
+            Lines{"after row 1, there is something between a closing quotation mark and the end of its cell"});
   EXPECT_EQ(faults_in("score,group\n1,5'10\"\n"),
-            Lines{"after row 0, a quotation mark stands within a cell that does not begin with one"});
+            Lines{"after row 0, a quotation mark is inside a cell that does not begin with one"});
   EXPECT_EQ(faults_in("\"score,group\n"), Lines{"in the header, a quotation mark is not closed"});
   for (const std::string& binary : {std::string("score,group\n1,\0\n", 16), std::string("score,group\n1,\xe9\n"),
                                     std::string("\xff\xfes\0c\0", 6), std::string("\x89PNG\r\n\x1a\n")})
-    EXPECT_EQ(faults_in(binary), Lines{"it is no text in UTF-8"});
+    EXPECT_EQ(faults_in(binary), Lines{"it is not text in UTF-8"});
   std::string many = "score,group\n";
   for (int i = 0; i < 100; ++i) many += "?,?\n";
   EXPECT_EQ(faults_in(many).size(), 10U);
