@@ -161,7 +161,7 @@ TEST(GradeOnPage, AScoreSaysWhatItIsMadeOf) {
                             {"withdrawals_partial", "count", 1, 0.0, 0.0, "", 0.0, 0.0, 1.0}};
   const std::string html = attempt_page(kTrainee, view, nullptr);
   EXPECT_THAT(html, HasSubstr("Score: 63 of 100"));
-  EXPECT_THAT(html, HasSubstr("changes nothing of it"));
+  EXPECT_THAT(html, HasSubstr("does not change it"));
   EXPECT_THAT(html, HasSubstr("SD at least"));
   EXPECT_THAT(html, HasSubstr("every metric weighs the same"));
 }

@@ -174,7 +174,7 @@ TEST_F(TrainPlanTest, ADrillIsWatchedBesideAnExpertsAndAttemptsFollowOnEachOther
     ASSERT_NO_FATAL_FAILURE(trainee_->begin_again());
     ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
     EXPECT_TRUE(comes("What is missing")) << now();
-    EXPECT_TRUE(comes("Of each, oldest first")) << now();
+    EXPECT_TRUE(comes("For each, oldest first")) << now();
     keep("after");
     trainee_->click("Mine beside the expert’s (B)");
     ASSERT_TRUE(trainee_->reaches("watch")) << now();

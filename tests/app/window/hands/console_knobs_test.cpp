@@ -102,7 +102,7 @@ TEST(ConsoleKnobs, ColourIsOnWithinWhatTheDepthAllowsOrOff) {
       {"vessel 2", volume::TissueClass::vessel, cases::StructureRule::critical, cases::Sphere{{0, 0, 0}, 3.0}}};
   EXPECT_NE(colour_words(vessels).find("shows the flow in carotid"), std::string::npos);
   EXPECT_NE(colour_words(vessels).find("not known in vessel 2"), std::string::npos);
-  EXPECT_NE(colour_words({}).find("of no vessel"), std::string::npos);
+  EXPECT_NE(colour_words({}).find("not known in any vessel"), std::string::npos);
 }
 
 TEST(ConsoleKnobs, CompoundingIsOnOrOff) {
