@@ -289,7 +289,7 @@ std::string help_text() {
          "  seldinger --version\n\n" +
          wrapped("", 0,
                  "A case, lesion, attempt, study, cohort or curriculum is called by its id, its title, or a "
-                 "beginning (four letters or more) that no other has.");
+                 "beginning that no other has.");
 }
 
 std::string commands_markdown() {
@@ -304,7 +304,7 @@ std::string commands_markdown() {
       "demo's "
       "(`seldinger/demo` under the user's data folder). CASE, LESION, ATTEMPT, STUDY, COHORT and CURRICULUM may be "
       "an "
-      "id, a title, or a beginning of four letters or more that no other has. With `--json` an error is also "
+      "id, a title, or a beginning that no other has. With `--json` an error is also "
       "printed to standard "
       "output, as `{\"error\": {\"code\", \"text\"}}` ([codes](errors.md)).\n";
   for (const Command& command : commands()) {

@@ -35,6 +35,7 @@ for shift in 0 0.8; do made "shift-$shift" --group $shift --attempts 300 --seed 
 
 set --
 for part in "$folder"/part-*.json; do set -- "$@" --from "$part"; done
+rm -f "$folder/surrogate.json"  # of fewer parts
 "$program" surrogate fit "$@" --out "$folder/surrogate.json"
 # One that is off is told, and is no reason to tell nothing else.
 told() {

@@ -26,9 +26,6 @@ bool is_whole_id(std::string_view text) {
   return text.size() == 36 && text[8] == '-' && text[13] == '-' && text[18] == '-' && text[23] == '-';
 }
 
-// As git has it for the names of objects: a slip of the finger is no beginning.
-constexpr std::size_t kShortestBeginning = 4;
-
 std::string in_small_letters(std::string_view text) {
   std::string small(text);
   for (char& c : small)
@@ -159,8 +156,7 @@ base::Result<std::string> id_of(std::string_view typed, const std::vector<Called
     if (one.id == typed) return one.id;
     const std::string id = in_small_letters(one.id), title = in_small_letters(one.title);
     if (title == wanted) of_title.push_back(one.id);
-    if (wanted.size() >= kShortestBeginning && (id.starts_with(wanted) || title.starts_with(wanted)))
-      begin_so.push_back(one.id);
+    if (id.starts_with(wanted) || title.starts_with(wanted)) begin_so.push_back(one.id);
   }
   const std::vector<std::string>& found = of_title.empty() ? begin_so : of_title;
   if (found.size() > 1) return ambiguous(found);

@@ -16,9 +16,9 @@ struct Called {
   std::string id, title;  // title: empty where it has none
 };
 
-// Its id, if it is the only one: of that id, else of that title, else whose id or title begins so (four bytes or
-// more); capitals and small letters are one (A to Z). Empty: none is called so, or nothing was typed. Refused:
-// `ambiguous`, with ids.
+// Its id, if it is the only one: of that id, else of that title, else whose id or title begins so; capitals and
+// small letters are one (A to Z). Empty: none is called so, or nothing was typed. Refused: `ambiguous`, with how
+// many and ids.
 base::Result<std::string> id_of(std::string_view typed, const std::vector<Called>& known);
 
 // What was typed in the place of CASE, LESION, ATTEMPT, STUDY, COHORT and CURRICULUM (words and options' values)

@@ -45,7 +45,8 @@ constexpr std::array<Colour, volume::kFoundOrganNames.size()> kOrganColours{{{0,
                                                                              {200, 160, 0},    // ribs
                                                                              {255, 0, 0},      // aorta
                                                                              {0, 0, 255},      // vena cava
-                                                                             {0, 255, 255}}};  // bladder
+                                                                             {0, 255, 255},    // bladder
+                                                                             {180, 255, 0}}};  // gallbladder
 
 bool is_black(const Colour& colour) {
   return colour.red == 0 && colour.green == 0 && colour.blue == 0;

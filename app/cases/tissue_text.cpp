@@ -68,7 +68,7 @@ std::string organs_text(const volume::Organs& organs) {
   }
   return "organs   " + (named.empty() ? std::string("none is sure enough to be named") : named) + "\n" +
          (not_named.empty() ? std::string() : "not found, or not sure enough to name: " + not_named + "\n") +
-         "not looked for: heart, gallbladder, stomach, bowel, pancreas and whatever else is not listed\n";
+         "not looked for: heart, stomach, bowel, pancreas and whatever else is not listed\n";
 }
 
 }  // namespace seldinger::app

@@ -266,6 +266,8 @@ constexpr ErrorCode kAttemptCodes[] = {
     {"other_modality", kRefuses, "The case is not practised with this modality.",
      "`case setting --also` allows a further one."},
     {"no_patient", kRefuses, "`--event` is for patients, and the case is a phantom.", "Leave `--event` out."},
+    {"no_injection", kRefuses, "Contrast is to be injected, and the needle is a core needle, which has no hub.",
+     "Leave `--event inject` out, or take `--instrument access`."},
     {"not_in_real_time", kRefuses, "Simulated attempts under fluoroscopy run in virtual time only.",
      "Leave `--real-time` out."},
     {"bad_operator", kRefuses, "A simulated operator's file is not a JSON object, or a field of it is wrong.",

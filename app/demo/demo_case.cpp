@@ -4,11 +4,14 @@
 #include "app/cli/library_place.h"
 #include "app/cli/words.h"
 #include "assessment/operators/lesion_site.h"
+#include "casedb/cases/classed_case.h"
 #include "casedb/database/credentials.h"
 #include "casedb/import/ct_rules.h"
 #include "session/case/case_build.h"
+#include "session/case/classed_build.h"
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/volume/organs/find_organs.h"
+#include "sim/volume/organs/organ_classes.h"
 #include "sim/volume/tissue/find_tissue.h"
 #include "sim/volume/volume_bytes.h"
 
@@ -27,15 +30,11 @@ cases::Modality modality_of(const Arguments& arguments) {
   return *modality;
 }
 
-base::Result<cases::Lesion> lesion_in(const cases::Case& scene, bool labelled) {
+// Organs: those of a CT without labels.
+base::Result<cases::Lesion> lesion_in(const cases::Case& scene, const std::optional<volume::Organs>& organs) {
   const cases::Modality modality = scene.picture.modality;
   assessment::LesionRule rule = assessment::lesion_rule(modality, scene.position);
-  std::optional<volume::Organs> organs;
-  if (!labelled) {
-    organs = volume::find_organs(scene.volume,
-                                 scene.classes.empty() ? volume::tissue_classes(scene.volume) : scene.classes);
-    rule.organs = &*organs;
-  }
+  if (organs) rule.organs = &*organs;
   if (modality == cases::Modality::ultrasound) {
     rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
       return session::UltrasoundSight(scene).looks_from(plan, target);
@@ -58,7 +57,11 @@ base::Result<DemoCaseFound> with_lesion(casedb::Library& library, casedb::CaseRo
     const auto scene =
         session::build_case(library, row, std::nullopt, picture_of(row.modality), session::needs_of(row.modality));
     if (!scene) return scene.error();
-    const auto lesion = lesion_in(*scene, !row.labels_sha256.empty());
+    std::optional<volume::Organs> organs;
+    if (row.labels_sha256.empty())
+      organs = volume::find_organs(scene->volume,
+                                   scene->classes.empty() ? volume::tissue_classes(scene->volume) : scene->classes);
+    const auto lesion = lesion_in(*scene, organs);
     if (!lesion) return lesion.error();
     if (const auto added = casedb::add_lesion(library, row.case_id, *lesion); !added) return added.error();
     lesions = casedb::list_lesions(library, row.case_id);
@@ -116,15 +119,17 @@ base::Result<DemoCaseFound> demo_case(std::optional<casedb::Library>& library, M
     if (auto thin = casedb::thin_slab(made->volume)) made->warnings.push_back(std::move(*thin));
   }
   if (modality == cases::Modality::mpr) made->title += ", CT slices";
-  const auto lesion = lesion_in(session::build_case(*made, picture_of(modality), session::needs_of(modality)),
-                                made->labels.has_value());
+  const volume::MarkedClasses marked =
+      volume::marked_classes(made->volume, made->labels ? &*made->labels : nullptr);
+  const auto lesion = lesion_in(
+      session::build_case(*made, picture_of(modality), session::needs_of(modality), marked.classes), marked.organs);
   if (!lesion) return with_warnings(lesion.error(), made->warnings);
   if (!library) {
     auto created = casedb::Library::open_or_create(folder.path());
     if (!created) return error_of_library(arguments, created.error());
     library.emplace(std::move(*created));
   }
-  const std::string case_id = casedb::add_case(*library, *made);
+  const std::string case_id = casedb::add_case(*library, *made, marked.classes);
   if (const auto added = casedb::add_lesion(*library, case_id, *lesion); !added) return added.error();
   auto row = casedb::find_case(*library, case_id);
   if (!row) return row.error();

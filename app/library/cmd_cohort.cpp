@@ -4,6 +4,7 @@
 #include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/library/people_json.h"
+#include "reports/words/people_words.h"
 
 namespace seldinger::app {
 namespace {
@@ -35,9 +36,12 @@ int run_cohort_list(const Arguments& arguments) {
     return kDone;
   }
   if (cohorts.empty()) std::puts("There is no cohort yet; `seldinger cohort add` makes one.");
-  for (const casedb::Cohort& one : cohorts)
-    std::printf("%s  %-24s %-16s %d learner%s\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
-                casedb::cells_of(one).learners, casedb::cells_of(one).learners == 1 ? "" : "s");
+  for (const casedb::Cohort& one : cohorts) {
+    const casedb::CohortCells cells = casedb::cells_of(one);
+    std::printf("%s  %-24s %-16s %d learner%s%s\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
+                cells.learners, cells.learners == 1 ? "" : "s",
+                reports::and_simulated_text(cells.simulated).c_str());
+  }
   return kDone;
 }
 

@@ -19,7 +19,8 @@ Json time_or_null(const std::optional<std::int64_t>& time_us) {
 Json head_of(const casedb::Cohort& cohort) {
   const casedb::CohortCells cells = casedb::cells_of(cohort);
   return {{"cohort_id", cohort.cohort_id}, {"title", cohort.title},      {"programme", cohort.programme},
-          {"site", cohort.site},           {"learners", cells.learners}, {"attempts", cells.attempts}};
+          {"site", cohort.site},           {"learners", cells.learners}, {"attempts", cells.attempts},
+          {"simulated", cells.simulated}};
 }
 
 }  // namespace

@@ -108,6 +108,9 @@ int run_surrogate_fit(const Arguments& arguments) {
   const auto out = file_of("--out", arguments.required("--out"), {".json"});
   const auto groups = groups_of(arguments, fitted_groups());
   const bool from_files = arguments.has("--from");
+  // It takes minutes of attempts to make one; and a file that is read by --from is no place for their sum.
+  if (std::error_code failed; std::filesystem::exists(std::filesystem::symlink_status(out, failed)))
+    return refuse({"exists", "--out: there is already something of that name"});
   if (from_files) refuse_beside("--from", {"--shard"}, arguments);
   const auto surrogate = from_files ? fitted_from_files(arguments) : fitted_now(arguments, groups);
   if (!surrogate) return refuse(surrogate.error());

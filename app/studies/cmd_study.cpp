@@ -6,6 +6,7 @@
 #include "app/library/people_json.h"
 #include "app/studies/study_json.h"
 #include "casedb/people/consent.h"
+#include "reports/words/people_words.h"
 
 namespace seldinger::app {
 namespace {
@@ -31,7 +32,7 @@ int run_study_list(const Arguments& arguments) {
   }
   if (studies.empty()) std::puts("There is no study yet; `seldinger study new` makes one.");
   for (const casedb::Study& one : studies)
-    std::printf("%s  %-32s %d consent\n", one.study_id.c_str(), one.title.c_str(), one.consenting);
+    std::printf("%s  %-32s %s\n", one.study_id.c_str(), one.title.c_str(), reports::consent_text(one).c_str());
   return kDone;
 }
 

@@ -13,6 +13,7 @@
 #include "casedb/cases/cases.h"
 #include "reports/studies/study_words.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/people_words.h"
 
 namespace seldinger::app {
 namespace {
@@ -76,14 +77,15 @@ int run_study_show(const Arguments& arguments) {
   std::printf("%s\nplan %s, %s\n", plan->plan.title.c_str(), plan->body_hash.c_str(), state_of(*plan).c_str());
   if (lock)
     std::printf("data %s, locked %s\n", lock->data_hash.c_str(), reports::utc_text(lock->locked_us).c_str());
-  std::printf("%d consent, %zu are enrolled\n", open->study.consenting, enrolments.size());
+  std::printf("%s, %zu are enrolled\n", reports::consent_text(open->study).c_str(), enrolments.size());
   for (const auto& group : plan->plan.groups)
     std::printf("  %-24s %td\n", group.name.c_str(),
                 std::count_if(enrolments.begin(), enrolments.end(),
                               [&](const auto& one) { return one.group == group.name; }));
+  const bool simulated = plan->plan.people == assessment::study::People::simulated;
   for (const casedb::StudyNote& one : looks)
-    std::printf("look %d  %s  %s, %d people with an outcome\n", one.number, reports::utc_text(one.at_us).c_str(),
-                one.text.c_str(), one.people);
+    std::printf("look %d  %s  %s, %s\n", one.number, reports::utc_text(one.at_us).c_str(), one.text.c_str(),
+                reports::with_outcome_text(one.people, simulated).c_str());
   for (const casedb::StudyNote& one : deviations)
     std::printf("deviation %d  %s  %s\n", one.number, reports::utc_text(one.at_us).c_str(), one.text.c_str());
   return kDone;
@@ -194,8 +196,10 @@ int run_study_lock(const Arguments& arguments) {
   if (arguments.has("--json"))
     std::fputs(json_of_lock(*plan, *lock).c_str(), stdout);
   else
-    std::printf("data locked %s, SHA-256 %s, %d people with an outcome\n",
-                reports::utc_text(lock->locked_us).c_str(), lock->data_hash.c_str(), lock->people);
+    std::printf("data locked %s, SHA-256 %s, %s\n", reports::utc_text(lock->locked_us).c_str(),
+                lock->data_hash.c_str(),
+                reports::with_outcome_text(lock->people, plan->plan.people == assessment::study::People::simulated)
+                    .c_str());
   return kDone;
 }
 

@@ -95,7 +95,10 @@ Json json_of(const std::vector<study::Compared>& outcomes, bool primary) {
 std::string json_of_studies(const std::vector<casedb::Study>& studies) {
   Json list = Json::array();
   for (const casedb::Study& one : studies)
-    list.push_back({{"study_id", one.study_id}, {"title", one.title}, {"consenting", one.consenting}});
+    list.push_back({{"study_id", one.study_id},
+                    {"title", one.title},
+                    {"consenting", one.consenting},
+                    {"simulated", one.simulated}});
   return casedb::text({{"studies", list}});
 }
 
@@ -117,6 +120,7 @@ std::string json_of_study(const casedb::Study& study, const casedb::StoredPlan& 
   Json json = head_of(plan), people = Json::array();
   json["title"] = study.title;
   json["consenting"] = study.consenting;
+  json["simulated"] = study.simulated;
   json["plan"] = Json::parse(plan.body);
   for (const casedb::StudyEnrolment& one : enrolments) people.push_back(json_of(one));
   json["enrolments"] = std::move(people);

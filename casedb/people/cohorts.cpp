@@ -81,7 +81,7 @@ std::vector<Cohort> read_cohorts(Library& library, std::string_view learners_que
     by_id.at(learners.text("cohort_id"))
         ->learners.push_back({learners.text("person_id"), learners.integer("still") != 0,
                               learners.small_integer("attempts"), learners.small_integer("with_hit"),
-                              learners.small_integer("hits")});
+                              learners.small_integer("hits"), learners.integer("simulated") != 0});
   return cohorts;
 }
 
@@ -175,13 +175,19 @@ base::Result<void> end_director(Library& library, const std::string& programme, 
 CohortCells cells_of(const Cohort& cohort) {
   CohortCells cells;
   for (const Learner& one : cohort.learners) {
-    if (!one.still) continue;
+    if (!one.still || one.simulated) continue;
     ++cells.learners;
     cells.attempts += one.attempts;
     cells.with_hit += one.with_hit;
     cells.hits += one.hits;
   }
+  cells.simulated = simulated_learners(cohort);
   return cells;
+}
+
+int simulated_learners(const Cohort& cohort) {
+  return static_cast<int>(std::count_if(cohort.learners.begin(), cohort.learners.end(),
+                                        [](const Learner& one) { return one.still && one.simulated; }));
 }
 
 }  // namespace seldinger::casedb

@@ -25,6 +25,7 @@ struct Learner {
   bool still = true;  // in it now
   int attempts = 0;
   int with_hit = 0, hits = 0;  // of the attempts: whose hit is known, and those that hit
+  bool simulated = false;
 };
 
 struct Cohort {
@@ -34,9 +35,10 @@ struct Cohort {
 
 // What is told of a cohort; −1: withheld.
 struct CohortCells {
-  int learners = 0;  // now
+  int learners = 0;  // now; people
   int attempts = 0;
   int with_hit = 0, hits = 0;
+  int simulated = 0;  // learners now, who are nobody
   constexpr bool operator==(const CohortCells&) const noexcept = default;
 };
 
@@ -67,5 +69,6 @@ base::Result<void> end_director(Library& library, const std::string& programme,
 
 // For who sees its people: of those who are in it now. For others: told_cells.h.
 CohortCells cells_of(const Cohort& cohort);
+int simulated_learners(const Cohort& cohort);  // now
 
 }  // namespace seldinger::casedb

@@ -46,7 +46,8 @@ base::Result<std::string> add_study(Library& library, const std::string& title) 
 std::vector<Study> list_studies(Library& library) {
   std::vector<Study> studies;
   for (Statement rows = question(library.database(), "studies"); rows.step();)
-    studies.push_back({rows.text("study_id"), rows.text("title"), rows.small_integer("consenting")});
+    studies.push_back({rows.text("study_id"), rows.text("title"), rows.small_integer("consenting"),
+                       rows.small_integer("simulated")});
   return studies;
 }
 

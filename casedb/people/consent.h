@@ -18,6 +18,7 @@ namespace seldinger::casedb {
 struct Study {
   std::string study_id, title;
   int consenting = 0;  // how many people
+  int simulated = 0;   // of whom its plan is; nobody asks them
 };
 
 // A text as one person meets it.

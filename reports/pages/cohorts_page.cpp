@@ -1,5 +1,7 @@
 #include "reports/pages/cohorts_page.h"
 
+#include "reports/words/people_words.h"
+
 namespace seldinger::reports {
 namespace {
 
@@ -18,6 +20,8 @@ void add_row(Html& html, const CohortView& view) {
   if (!cohort.site.empty()) html.raw(" <span class=\"why\">").name(cohort.site).raw("</span>");
   html.raw("</td><td data-label=\"Learners\">").text(count_text(cells.learners));
   for (std::size_t i = 0; i < view.learners.size(); ++i) html.raw(i == 0 ? ": " : ", ").name(view.learners[i]);
+  html.text(and_simulated_text(cells.simulated));
+  for (std::size_t i = 0; i < view.simulated.size(); ++i) html.raw(i == 0 ? ": " : ", ").name(view.simulated[i]);
   html.raw("</td><td class=\"number\" data-label=\"Attempts\">").text(count_text(cells.attempts));
   html.raw("</td><td class=\"number\" data-label=\"Hits\">");
   if (cells.hits < 0)

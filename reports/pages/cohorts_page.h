@@ -12,9 +12,10 @@ namespace seldinger::reports {
 
 struct CohortView {
   casedb::Cohort cohort;
-  bool named = false;                   // the reader sees who is in it
-  std::vector<std::string> learners{};  // their names
-  casedb::CohortCells cells{};          // where `named` is false, as casedb::told_cells has them
+  bool named = false;                    // the reader sees who is in it
+  std::vector<std::string> learners{};   // their names
+  std::vector<std::string> simulated{};  // likewise, of simulated ones
+  casedb::CohortCells cells{};           // where `named` is false, as casedb::told_cells has them
 };
 
 std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> cohorts);

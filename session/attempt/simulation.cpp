@@ -1,5 +1,7 @@
 #include "session/attempt/simulation.h"
 
+#include <algorithm>
+
 #include "assessment/population/streams.h"
 #include "assessment/score.h"
 #include "casedb/attempts/add_unless.h"
@@ -28,6 +30,11 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, Program p
 base::Result<void> Simulation::set_scenario(std::vector<cases::Event> events) {
   if (!events.empty() && task_.scene.subject == cases::Subject::phantom)
     return base::Error{"no_patient", "nothing happens to a phantom: --event is for patients"};
+  const bool injected = std::any_of(events.begin(), events.end(), [](const cases::Event& event) {
+    return event.kind == cases::EventKind::inject;
+  });
+  if (injected && task_.scene.instrument.kind == cases::InstrumentKind::core)
+    return base::Error{"no_injection", "a core needle has no hub: contrast goes through an access needle"};
   scenario_ = std::move(events);
   return {};
 }

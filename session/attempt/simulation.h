@@ -57,7 +57,8 @@ class Simulation {
                                           std::optional<cases::InstrumentKind> kind = std::nullopt,
                                           std::optional<cases::Modality> modality = std::nullopt);
 
-  // What a mentor lets happen in each of the attempts, by rising time. Refused: `no_patient` of a phantom.
+  // What a mentor lets happen in each of the attempts, by rising time. Refused: `no_patient` of a phantom,
+  // `no_injection` of contrast through a core needle.
   base::Result<void> set_scenario(std::vector<cases::Event> events);
 
   // One attempt, stored and durable when it returns. `person_id`: whose attempt it is.

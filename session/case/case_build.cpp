@@ -2,8 +2,11 @@
 
 #include <glm/mat4x4.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "casedb/cases/authoring.h"
+#include "session/case/classed_build.h"
 #include "sim/case/paint.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
@@ -160,14 +163,21 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
 }
 
 cases::Case build_case(const casedb::NewCase& made, const cases::Picture& picture, Needs needs) {
+  std::vector<volume::TissueClass> classes;
+  if (needs != Needs::metrics)
+    classes = volume::classes_with_organs(made.volume, made.labels ? &*made.labels : nullptr);
+  return build_case(made, picture, needs, std::move(classes));
+}
+
+cases::Case build_case(const casedb::NewCase& made, const cases::Picture& picture, Needs needs,
+                       std::vector<volume::TissueClass> classes) {
   cases::Case scene;
   scene.volume = made.volume;
   scene.skin = made.skin;
   scene.skin_index = cases::MeshIndex(scene.skin);
   scene.picture = picture;
   take_setting(made, scene);
-  if (needs != Needs::metrics)
-    scene.classes = volume::classes_with_organs(scene.volume, made.labels ? &*made.labels : nullptr);
+  if (needs != Needs::metrics) scene.classes = std::move(classes);
   finish(needs, scene);
   return scene;
 }

@@ -184,10 +184,6 @@ struct UsPulseParameters {
   int first_tap;    // fine sample k·fine + first_tap is the first that counts for sample k
   int taps;         // weights are padded with zeros, (kUsOutputs − 1)·fine on either side
   int most_echoes;  // room for a beam's
-  int noisy;
-  uint noise_first;  // the noise's key
-  uint noise_second;
-  float noise_mean_square;
   float sample_mm;
   float sigma_mm;  // of the pulse
   float fine_per_mm;
@@ -213,31 +209,7 @@ struct UsMirrorParameters {
   float beam_step;   // between beams: radians, or mm for a straight face
   float sample_mm;
   float loss_db_mm;
-  int noisy;
-  uint noise_first;  // the noise's key
-  uint noise_second;
-  float noise_mean_square;
 };
-
-struct UsGreyParameters {
-  int width_px;
-  int height_px;
-  int beams;
-  int samples;
-  float pixel_mm;
-  float top_mm;
-  float radius_mm;
-  float first_beam;  // of beam 0, and
-  float beam_step;   // between beams: radians, or mm for a straight face
-  float sample_mm;
-  float depth_mm;
-  float black_db;
-  float per_db;  // grey levels
-  int curved;
-  int flipped;
-  int mapped;
-};
-SHARED_CONSTANT int kUsPixels = 4;  // side by side in one number
 
 SHARED_END
 

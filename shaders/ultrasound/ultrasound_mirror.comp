@@ -7,11 +7,9 @@
 layout(local_size_x = 64) in;
 
 layout(std140, binding = 0) uniform Parameters { UsMirrorParameters parameters; };
-layout(std140, binding = 2) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Mirrors { UsMirror mirrors[]; };  // a beam
 layout(std430, binding = 3) readonly buffer Envelope { float envelope[]; };
 layout(std430, binding = 4) writeonly buffer Mirrored { float mirrored[]; };
-#include "ultrasound/ultrasound_noise.glsl"
 
 float seen_in_mirror(int beam, float depth_mm) {
   float across = parameters.first_beam + float(beam) * parameters.beam_step;
@@ -45,5 +43,5 @@ void main() {
   float depth_mm = (float(k) + 0.5) * parameters.sample_mm;
   float more = depth_mm > mirrors[beam].met.x ? seen_in_mirror(beam, depth_mm) : 0.0;
   float level = envelope[place];
-  mirrored[place] = with_noise(more > 0.0 ? sqrt(level * level + more * more) : level, place);
+  mirrored[place] = more > 0.0 ? sqrt(level * level + more * more) : level;
 }

@@ -1,4 +1,4 @@
-// From sums to the envelope: loss, pulse on the complex baseband, echoes, receiver noise. Each invocation makes
+// From sums to the envelope: loss, pulse on the complex baseband, echoes. Each invocation makes
 // some samples of a beam, one after the other, and takes each fine sample for all of them at once.
 // ultrasound_pulse.comp and ultrasound_pulse_shifted.comp differ in where fine samples come from: from the sums, or
 // from where sound of another speed shows them (ULTRASOUND_SHIFTED).
@@ -8,7 +8,6 @@
 layout(local_size_x = 64) in;
 
 layout(std140, binding = 0) uniform Parameters { UsPulseParameters parameters; };
-layout(std140, binding = 2) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
 #ifdef ULTRASOUND_SHIFTED
 layout(std430, binding = 3) readonly buffer Laid { vec2 laid[]; };
@@ -19,7 +18,6 @@ layout(std430, binding = 4) readonly buffer Sums { ivec2 sums[]; };
 layout(std430, binding = 5) readonly buffer EchoCounts { int echo_counts[]; };  // a beam
 layout(std430, binding = 6) readonly buffer Echoes { vec4 echoes[]; };          // depth in mm, amplitude (complex), us_parting_per_mm
 layout(std430, binding = 7) writeonly buffer Envelope { float envelope[]; };
-#include "ultrasound/ultrasound_noise.glsl"
 
 void main() {
   int beam = int(gl_WorkGroupID.y);
@@ -65,7 +63,6 @@ void main() {
 
   for (int j = 0; j < kUsOutputs; ++j) {
     float level = left[j] * sqrt(dot(value[j], value[j]));
-    int place = beam_sample + first + j;
-    if (first + j < parameters.samples) envelope[place] = with_noise(level, place);
+    if (first + j < parameters.samples) envelope[beam_sample + first + j] = level;
   }
 }

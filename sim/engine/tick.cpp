@@ -23,6 +23,12 @@ void note_capsule(const haptics::HeldNeedleState& needle, TickState& now) noexce
   now.capsule_n = taken_n;
 }
 
+std::optional<StandingTube> standing_tube(const TickState& now) noexcept {
+  const haptics::HeldNeedleState& held = now.hands[kNeedleHand].needle;
+  if (now.introducer != haptics::Introducer::open || !(held.track.sheath_mm > 0.0)) return std::nullopt;
+  return StandingTube{held.entry_lps_mm, held.entry_lps_mm + held.track.sheath_mm * held.direction};
+}
+
 }  // namespace
 
 Moment moment_of(const TickState& now) noexcept {
@@ -39,6 +45,7 @@ Moment moment_of(const TickState& now) noexcept {
           now.patient.numb_lps_mm,
           now.patient.deep,
           now.introducer,
+          standing_tube(now),
           now.patient.nicked,
           now.patient.nick_lps_mm};
 }

@@ -21,6 +21,12 @@
 
 namespace seldinger::engine {
 
+// An introducer's tube that stands in tissue while the needle slides in it or is out of it: where it went in, and
+// its end, at rest.
+struct StandingTube {
+  glm::dvec3 entry_lps_mm{0.0}, end_lps_mm{0.0};
+};
+
 // What is shown of a tick, by whoever draws: where everything is, and what the hands feel.
 struct Moment {
   cases::State state;
@@ -35,8 +41,9 @@ struct Moment {
   // PatientState's: the latest places of the skin that are numb, at rest, and how many there were.
   std::uint32_t numbed = 0;
   std::array<glm::dvec3, kNumbPlaces> numb_lps_mm{};
-  std::uint32_t deep = 0;            // places about a tip in tissue were made numb
-  haptics::Introducer introducer{};  // of a core needle
+  std::uint32_t deep = 0;              // places about a tip in tissue were made numb
+  haptics::Introducer introducer{};    // of a core needle
+  std::optional<StandingTube> tube{};  // of an open one, until another hole is sought
   // PatientState's: the latest places where the skin is nicked, at rest, and how many there were.
   std::uint32_t nicked = 0;
   std::array<glm::dvec3, kNickPlaces> nick_lps_mm{};

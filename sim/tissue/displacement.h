@@ -89,6 +89,9 @@ struct InverseSteps {
   int fixed_point = 3, newton = 2;
 };
 glm::dvec3 rest_of(const Displacement& displacement, const glm::dvec3& at_lps_mm, InverseSteps steps = {}) noexcept;
+// Of many, as many as there is room for (CHECKed), by fixed-point steps alone: the same bits, sooner.
+void rest_of(const Displacement& displacement, std::span<const glm::dvec3> at_lps_mm, int fixed_point_steps,
+             std::span<glm::dvec3> rest_lps_mm) noexcept;
 
 // How much larger a small piece of tissue is than at rest; > 0 unless it is folded.
 double volume_ratio(const Displacement& displacement, const glm::dvec3& rest_lps_mm) noexcept;

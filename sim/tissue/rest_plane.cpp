@@ -19,6 +19,19 @@ int cell_of(double nodes, int cells) noexcept {
 
 }  // namespace
 
+InverseSteps picture_steps(const Displacement& displacement) noexcept {
+  const double steepest_mm = shaders::kSlipMm / shaders::kSlipOfWay;
+  bool far = false;
+  for (int i = displacement.vein_end; i < displacement.breath_end; ++i) {
+    const shaders::DisplacementSource& breath = displacement.source[i];
+    far = far || (breath.along.w > 0.0F && std::abs(static_cast<double>(breath.amount.z)) > steepest_mm);
+  }
+  return {.fixed_point = 4, .newton = far ? 4 : 1};
+}
+
+RestPlane::RestPlane(const Displacement& displacement, const PlanePart& part, double spacing_mm)
+    : RestPlane(displacement, part, spacing_mm, picture_steps(displacement)) {}
+
 RestPlane::RestPlane(const Displacement& displacement, const PlanePart& part, double spacing_mm, InverseSteps steps)
     : part_(part),
       per_spacing_(1.0 / spacing_mm),

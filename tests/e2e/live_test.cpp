@@ -100,6 +100,11 @@ TEST_F(LiveTest, AMentorsEventIsPartOfTheAttempt) {
                   .exit_code,
               2)
         << wrong;
+  const auto injected = run(kProgram + " simulate --operator expert --instrument core --event inject@3 --case " +
+                                case_id_ + " --library " + library_,
+                            scratch_);
+  EXPECT_EQ(injected.exit_code, 3);
+  EXPECT_EQ(injected.err.rfind("error: no_injection: ", 0), 0U) << injected.err;
 }
 
 // kill -9 in the middle: whoever lists the attempts next finds it, readable and marked.

@@ -151,6 +151,26 @@ TEST_F(SimulateTest, ShardsOfAClusterMergeIntoOneLibraryWithoutADouble) {
   EXPECT_EQ(ask("attempt list").at("attempts").size(), before) << "nothing was left to be made";
 }
 
+// docs/pass-rates.sh: a row for each case of the library, counted as the attempts there are graded.
+TEST_F(SimulateTest, PassRatesAreATableOfTheCases) {
+  const auto ran = run("PEOPLE=1 SEED=7 SELDINGER='" + kProgram + "' '" +
+                           (fixtures::source_dir() / "docs/pass-rates.sh").string() + "' '" + library_ + "'",
+                       scratch_);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  std::string wanted = "| | simulated novices | simulated experts |\n|---|---|---|\n";
+  for (const Json& row : ask("case list").at("cases")) {
+    wanted += "| " + row.at("title").get<std::string>();
+    for (const char* group : {"novice", "expert"}) {
+      const Json made = ask("simulate --people 1 --seed 7 --no-pictures --operator " + std::string(group) +
+                            " --case " + row.at("case_id").get<std::string>());
+      const bool passed = made.at("attempts")[0].at("grade").at("verdict") == "passed";
+      wanted += passed ? " | 1 of 1" : " | 0 of 1";
+    }
+    wanted += " |\n";
+  }
+  EXPECT_EQ(ran.out, wanted);
+}
+
 TEST_F(SimulateTest, AFileOfSkillsMakesPeopleAboutItsOperator) {
   const auto file = scratch_ / "own.json";
   std::ofstream(file) << R"({"name": "own", "like": "expert"})";

@@ -12,10 +12,15 @@ ScreenPair screen_pair(UltrasoundGpu& gpu, const TissueVolume& tissue, const Ult
   constexpr std::uint64_t kFrame = 7;
   ScreenPair pair;
   PolarPicture polar;
+  const ScanConverter converter(view, size);
+  const auto show = [&](std::vector<unsigned char>& grey) {
+    add_receiver_noise(view.seed, kFrame, polar);
+    converter.grey(view, knobs, polar, grey);
+  };
   ultrasound_polar(tissue, view, inserted, depth_below_skin_mm, polar, displacement);
-  add_receiver_noise(view.seed, kFrame, polar);
-  ScanConverter(view, size).grey(view, knobs, polar, pair.cpu);
-  gpu.grey(view, inserted, depth_below_skin_mm, knobs, size, kFrame, pair.gpu, displacement);
+  show(pair.cpu);
+  gpu.polar(view, inserted, depth_below_skin_mm, polar, displacement);
+  show(pair.gpu);
   if (pair.cpu.size() != pair.gpu.size()) return pair;
   std::size_t lit = 0, far = 0;
   for (std::size_t i = 0; i < pair.cpu.size(); ++i) {

@@ -61,6 +61,28 @@ TEST(Start, ATraineeWithoutAnythingReadsThat) {
   EXPECT_THAT(response.body, HasSubstr("You have made no attempt yet"));
 }
 
+TEST(Start, WhoIsSimulatedIsCountedApart) {
+  FakeSite fake;
+  fake.questions.records[kOther] = fake.questions.records["one-drawn"] = {record_of(5, 0)};
+  fake.questions.simulated.insert("one-drawn");
+  fake.questions.cohorts = {
+      {"c1", "Autumn", "", "", {{kOther, true, 5, 5, 0}, {"one-drawn", true, 0, 0, 0, true}}}};
+  fake.questions.cohort_relations["person-of-mentor"]["c1"].own_cohort = true;
+  fake.questions.relations["person-of-mentor"]["one-drawn"].own_cohort = true;
+  FakeBrowser mentor(*fake.site);
+  mentor.log_in_as(Role::mentor);
+  EXPECT_THAT(mentor.get("/").body, HasSubstr("Stuck <strong>1</strong> and 1 simulated</a>"));
+  const std::string learners = mentor.get("/progress").body;
+  EXPECT_THAT(learners, HasSubstr("1 learner and 1 simulated. "));
+  EXPECT_THAT(learners, HasSubstr("<dd>1<span class=\"why\"> and 1 simulated</span></dd>"));
+  EXPECT_THAT(learners, HasSubstr("<caption>How many learners have")) << "item by item people alone";
+  EXPECT_THAT(learners, HasSubstr("data-label=\"Stuck\">1</td>"));
+  const std::string cohorts = mentor.get("/cohorts").body;
+  EXPECT_THAT(cohorts, HasSubstr("<td data-label=\"Learners\">1: <bdi>Other Trainee</bdi> and 1 simulated: <bdi>"));
+  fake.questions.cohorts[0].learners.erase(fake.questions.cohorts[0].learners.begin());
+  EXPECT_THAT(mentor.get("/progress").body, HasSubstr("<caption>How many simulated learners have"));
+}
+
 TEST(Start, AMentorReadsWhoIsStuckOnWhatAndWhatWaits) {
   FakeSite fake;
   fake.questions.records[kOther] = {record_of(5, 0)};
@@ -76,6 +98,7 @@ TEST(Start, AMentorReadsWhoIsStuckOnWhatAndWhatWaits) {
   EXPECT_THAT(page, HasSubstr("href=\"/progress/" + kOther + "\""));
   EXPECT_THAT(page, HasSubstr("standing=stuck\">Stuck <strong>1</strong>"));
   EXPECT_THAT(page, HasSubstr("standing=ready\">Ready <strong>0</strong>"));
+  EXPECT_THAT(mentor.get("/progress").body, HasSubstr("<caption>How many learners have come how far"));
   EXPECT_THAT(page, HasSubstr("<bdi>Case, a review</bdi></a>: waits for your review"));
   EXPECT_THAT(page, Not(HasSubstr("Case, a draft")));
   EXPECT_THAT(page, HasSubstr("href=\"/attempts/" + kOthersAttempt + "\"")) << "not passed, nothing said";

@@ -55,6 +55,7 @@ Json json_of_head(const reports::StudyView& one) {
   return {{"study_id", one.study.study_id},
           {"title", one.study.title},
           {"consenting", one.study.consenting},
+          {"simulated", one.study.simulated},
           {"enrolled", one.plan && one.plan->frozen() ? Json(one.enrolments.size()) : Json(nullptr)},
           {"plan_state", !one.plan ? Json(nullptr) : Json(one.plan->frozen() ? "frozen" : "draft")},
           {"looks_count", one.looks.size()}};
@@ -129,7 +130,9 @@ std::string cohorts_json(std::span<const reports::CohortView> cohorts) {
                     {"learners", count_or_null(one.cells.learners)},
                     {"attempts", count_or_null(one.cells.attempts)},
                     {"with_hit", count_or_null(one.cells.with_hit)},
-                    {"hits", count_or_null(one.cells.hits)}});
+                    {"hits", count_or_null(one.cells.hits)},
+                    {"simulated", one.cells.simulated},
+                    {"simulated_names", one.named ? Json(one.simulated) : Json(nullptr)}});
   return casedb::line({{"cohorts", list}});
 }
 

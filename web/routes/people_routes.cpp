@@ -26,7 +26,7 @@ std::vector<reports::CohortView> visible_cohorts(Site& site, const Call& call) {
     // By name to who leads it or directs its programme. That each of its learners is seen elsewhere tells nothing
     // of it.
     const casedb::Relation to_cohort = site.questions.relation_to_cohort(call.reader->account.person_id, cohort);
-    reports::CohortView view{cohort, casedb::may(role, casedb::Action::see_cohort, to_cohort), {}, {}};
+    reports::CohortView view{cohort, casedb::may(role, casedb::Action::see_cohort, to_cohort), {}, {}, {}};
     if (view.named) {
       view.cells = casedb::cells_of(cohort);
       for (const casedb::Learner& one : cohort.learners) {
@@ -34,11 +34,12 @@ std::vector<reports::CohortView> visible_cohorts(Site& site, const Call& call) {
         const auto name = names.find(one.person_id);
         const bool may_read =
             casedb::may(role, casedb::Action::see_operator_name, relation_to(relations, one.person_id));
-        view.learners.push_back(name != names.end() && may_read ? name->second
-                                                                : reports::person_text(one.person_id));
+        (one.simulated ? view.simulated : view.learners)
+            .push_back(name != names.end() && may_read ? name->second : reports::person_text(one.person_id));
       }
     } else if (casedb::may(role, casedb::Action::see_cohort_cells)) {
       view.cells = told.at(cohort.cohort_id).cells;
+      view.cells.simulated = casedb::simulated_learners(cohort);
     } else {
       continue;
     }

@@ -45,7 +45,7 @@ Response show_tally(Site& site, const Call& call) {
     text += "# HELP seldinger_" + name + " " + help + "\n# TYPE seldinger_" + name + " gauge\nseldinger_" + name +
             labels + " " + value + "\n";
   };
-  add("sessions", "Who is logged in.", std::to_string(site.sessions.count()));
+  add("sessions", "Open sessions.", std::to_string(site.sessions.count()));
   add("library_healthy", "1 while the library can be read and written.",
       site.questions.health() == casedb::Health::ok ? "1" : "0");
   add("build_info", "The program.", "1", "{version=\"" + site.surroundings.program_version + "\"}");

@@ -83,11 +83,11 @@ class Chart {
     try {
       gpu::Context context;
       imaging::UltrasoundGpu gpu(context, patient_.tissue(), imaging::LinesBy::machine, imaging::TissueMoves::yes);
-      std::vector<unsigned char> grey;
+      imaging::PolarPicture picture;
       for (const auto method : {imaging::UltrasoundMethod::scatterers, imaging::UltrasoundMethod::lattice}) {
         view_.method = method;
         pair("gpu", context.renderer(), n_, [&](const tissue::Displacement& displacement) {
-          gpu.grey(view_, inserted_, {}, {}, {800, 700}, 1, grey, displacement);
+          gpu.polar(view_, inserted_, {}, picture, displacement);
         });
       }
     } catch (const base::Failure& failure) {

@@ -90,6 +90,13 @@ std::string said_words(const Said& said) {
   }
 }
 
+std::string phantom_words(cases::EventKind kind) {
+  using cases::EventKind;
+  if (kind == EventKind::probe_checked || kind == EventKind::note_plan) return {};
+  return kind == EventKind::nick ? "A phantom has no skin to nick: the needle goes in as it is."
+                                 : "That is for a patient; a phantom is nobody.";
+}
+
 bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality modality) {
   return kind == cases::EventKind::note_plan && !(planned_mm > 0.0) && modality != cases::Modality::xray;
 }

@@ -30,6 +30,9 @@ struct Said {
   haptics::Introducer introducer{};  // before it was said
 };
 std::string said_words(const Said& said);
+// An answer to what is for a patient alone, at a phantom; of a nick, that there is no skin to cut. Empty: a phantom
+// is told it, too.
+std::string phantom_words(cases::EventKind kind);
 // Where there is a depth to set beside it, a plan without one is not noted; these words say so.
 bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality modality);
 std::string missing_depth_words();

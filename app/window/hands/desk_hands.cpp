@@ -143,29 +143,35 @@ void DeskHands::advance(const devices::HandIntent& intent, const cases::State& s
     inputs.needle = braced_.carried(inputs.needle, mouse_.inserted_mm());
     inputs.probe = braced_.carried(inputs.probe, 0.0);
   } else {
-    cases::Inputs arms;
-    desk_->read(state.needle.inserted_mm <= 0.0, forces.probe_n <= 0.0, elapsed_s, arms, held_);
-    inputs.fire = inputs.fire || arms.fire;
-    inputs.freeze = inputs.freeze != arms.freeze;  // either lets go what the other froze
-    for (std::size_t side = 0; side < 2; ++side) {
-      const bool heard = desk_->healthy(static_cast<Side>(side));
-      count(!heard, elapsed_s, silent_s_[side]);
-      arms_.lost[side] = silent_s_[side] >= kSaidLostS;
-      const bool answers = heard && !arms_.lost[side];
-      held_[side].healthy = answers;
-      count(answers && held_[side].delay_ticks > haptics::kMostDelayTicks, elapsed_s, late_s_[side]);
-      arms_.late[side] = late_s_[side] >= kSaidLostS;
-      if (heard && !answers) desk_->let_go(static_cast<Side>(side));
-      if (answers) {
-        arm_led_[side] = true;
-        pose_in(inputs, side) = pose_in(arms, side);
-      } else {
-        if (arm_led_[side]) pose_in(inputs, side) = pose_in(last_, side);
-        desk_->leave_at(static_cast<Side>(side), pose_in(inputs, side));
-      }
-    }
+    read_arms(state, forces, elapsed_s, inputs);
   }
   last_ = inputs;
+}
+
+void DeskHands::read_arms(const cases::State& state, const devices::AxialForces& forces, double elapsed_s,
+                          cases::Inputs& inputs) noexcept {
+  cases::Inputs arms;
+  desk_->read(state.needle.inserted_mm <= 0.0, forces.probe_n <= 0.0, elapsed_s, arms, held_);
+  inputs.fire = inputs.fire || (arms.fire && !away_);
+  inputs.freeze = inputs.freeze != arms.freeze;  // either lets go what the other froze
+  for (std::size_t side = 0; side < 2; ++side) {
+    const bool heard = desk_->healthy(static_cast<Side>(side));
+    count(!heard, elapsed_s, silent_s_[side]);
+    arms_.lost[side] = silent_s_[side] >= kSaidLostS;
+    const bool answers = heard && !arms_.lost[side];
+    // A hand that is away goes where it likes and feels nothing; back, it grips its tool where that was left.
+    held_[side].healthy = answers && !away_;
+    count(answers && held_[side].delay_ticks > haptics::kMostDelayTicks, elapsed_s, late_s_[side]);
+    arms_.late[side] = late_s_[side] >= kSaidLostS;
+    if (heard && !held_[side].healthy) desk_->let_go(static_cast<Side>(side));
+    if (answers) arm_led_[side] = true;
+    if (held_[side].healthy) {
+      pose_in(inputs, side) = pose_in(arms, side);
+    } else {
+      if (arm_led_[side]) pose_in(inputs, side) = pose_in(last_, side);
+      desk_->leave_at(static_cast<Side>(side), pose_in(inputs, side));
+    }
+  }
 }
 
 void DeskHands::feel(const engine::Tick& tick, const engine::TickState& now, double elapsed_s) noexcept {

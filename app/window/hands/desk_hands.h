@@ -46,8 +46,8 @@ class DeskHands {
   void take_over(const cases::Inputs& left, const cases::State& state) noexcept;
 
   // One tick: poses, trigger and frozen picture into `inputs`, whose fluoroscope is told already: with the hand
-  // away what mouse and keys hold stays where it is. The tool of a lost arm stays until mouse or keys move it; an
-  // arm that comes back goes on from where its tool is then.
+  // away what it held stays where it is, and is taken up there. The tool of a lost arm stays until mouse or keys
+  // move it; an arm that comes back goes on from where its tool is then.
   void advance(const devices::HandIntent& intent, const cases::State& state, const devices::AxialForces& forces,
                double elapsed_s, cases::Inputs& inputs) noexcept;
   // What the arms feel of the tick that was done goes to their motors.
@@ -72,6 +72,8 @@ class DeskHands {
  private:
   cases::ToolPose& pose_in(cases::Inputs& inputs, std::size_t side) const noexcept;
   void lead(const cases::Inputs& wanted) noexcept;
+  void read_arms(const cases::State& state, const devices::AxialForces& forces, double elapsed_s,
+                 cases::Inputs& inputs) noexcept;
   static constexpr double kLookMm = 60.0;
 
   const cases::Case& scene_;

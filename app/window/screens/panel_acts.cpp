@@ -36,8 +36,7 @@ constexpr std::array<Saying, 10> kSayings = {{
 
 bool asked_for(const Saying& saying, const cases::Case& scene) {
   if (saying.kind == EventKind::probe_checked) return scene.picture.modality == cases::Modality::ultrasound;
-  if (saying.kind == EventKind::note_plan) return true;
-  if (scene.subject == cases::Subject::phantom) return false;
+  if (scene.subject == cases::Subject::phantom && !phantom_words(saying.kind).empty()) return false;
   if (saying.kind == EventKind::stylet_out || saying.kind == EventKind::inject)
     return scene.instrument.kind == cases::InstrumentKind::access;
   if (saying.kind == EventKind::nick || saying.kind == EventKind::stylet_in)
@@ -156,7 +155,13 @@ void ActsPanel::read_keys(PersonAttempt& attempt, const Seen& seen, bool flipped
     finish(attempt, seen, flipped);
   }
   for (const Saying& saying : kSayings) {
-    if (!asked_for(saying, attempt.task()->scene) || !keys.pressed(saying.key)) continue;
+    if (!keys.pressed(saying.key)) continue;
+    const cases::Case& scene = attempt.task()->scene;
+    if (!asked_for(saying, scene)) {
+      const std::string words = phantom_words(saying.kind);
+      if (scene.subject == cases::Subject::phantom && !words.empty()) answer(seen, words);
+      continue;
+    }
     if (decided_)
       say(attempt, seen, flipped, saying.kind);
     else

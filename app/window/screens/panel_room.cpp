@@ -9,12 +9,14 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::app {
 namespace {
@@ -46,6 +48,20 @@ cases::ToolPose pose_of_held(const Seen& seen) {
   const cases::State& state = seen.moment.state;
   if (seen.held == devices::HeldTool::needle) return {state.needle.tip_lps_mm, state.needle.direction, {}};
   return {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
+}
+
+// Where the tissue has it in which it stands; about the needle while its stylet is in, but for the point.
+std::optional<imaging::RoomIntroducer> introducer_of(const engine::Moment& moment) {
+  constexpr double kPointMm = 3.0, kShortestMm = 1.0;  // less tells no direction
+  const cases::NeedleState& needle = moment.state.needle;
+  if (moment.introducer == haptics::Introducer::closed)
+    return imaging::RoomIntroducer{needle.tip_lps_mm - kPointMm * needle.direction, needle.direction};
+  if (!moment.tube) return std::nullopt;
+  const glm::dvec3 end_lps_mm = tissue::displaced(moment.displacement, moment.tube->end_lps_mm);
+  const glm::dvec3 in_mm = end_lps_mm - tissue::displaced(moment.displacement, moment.tube->entry_lps_mm);
+  const double deep_mm = glm::length(in_mm);
+  if (!(deep_mm > kShortestMm)) return imaging::RoomIntroducer{end_lps_mm, needle.direction};
+  return imaging::RoomIntroducer{end_lps_mm, in_mm / deep_mm};
 }
 
 // By imaging::RoomView; the key is its number.
@@ -240,6 +256,7 @@ void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
       std::span(moment.numb_lps_mm).first(std::min<std::size_t>(moment.numbed, engine::kNumbPlaces));
   options.nicks_lps_mm =
       std::span(moment.nick_lps_mm).first(std::min<std::size_t>(moment.nicked, engine::kNickPlaces));
+  options.introducer = introducer_of(moment);
   imaging::make_draw_list(room_->scene, scene, seen.moment.state, options, room_->list);
   const unsigned int name = room_->renderer.draw(room_->list, picture, seen.moment.displacement);
   drawn_.emplace(context_);

@@ -1,10 +1,10 @@
 -- What told_cells is made of: who came to a cohort as a learner, who left, and what they did by themselves while they
--- were in it, with the first value of hit that was stored.
-SELECT cohort_id, person_id, from_us AS at_us, 'came' AS what FROM enrolment
-WHERE post = 'learner'
+-- were in it, with the first value of hit that was stored. Simulated people are nobody to hide or to hide among.
+SELECT cohort_id, person_id, from_us AS at_us, 'came' AS what FROM enrolment JOIN person USING (person_id)
+WHERE kind = 'real' AND post = 'learner'
 UNION ALL
-SELECT cohort_id, person_id, to_us, 'left' FROM enrolment
-WHERE post = 'learner' AND to_us IS NOT NULL
+SELECT cohort_id, person_id, to_us, 'left' FROM enrolment JOIN person USING (person_id)
+WHERE kind = 'real' AND post = 'learner' AND to_us IS NOT NULL
 UNION ALL
 SELECT learner.cohort_id, learner.person_id, started_us, coalesce((
     SELECT CASE WHEN value > 0 THEN 'hit' ELSE 'miss' END FROM metric_value

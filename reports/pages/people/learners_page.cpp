@@ -5,6 +5,7 @@
 
 #include "reports/pages/curricula_page.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/people_words.h"
 #include "reports/words/standing_words.h"
 
 namespace seldinger::reports {
@@ -82,14 +83,28 @@ void add_filter(Html& html, const LearnersView& view) {
   html.raw("</select></p>\n<p><button class=\"quiet\">Show</button></p>\n</form>\n");
 }
 
+// Simulated ones are counted apart.
+struct Counted {
+  int people = 0, simulated = 0;
+};
+template <typename Which>
+Counted counted(const std::vector<Row>& rows, const Which& which) {
+  Counted count;
+  for (const Row& row : rows)
+    if (which(row)) ++(row.learner->simulated ? count.simulated : count.people);
+  return count;
+}
+
 // How many are in each state: a bar whose parts say themselves.
 void add_counts(Html& html, const std::vector<Row>& rows) {
   html.raw("<dl class=\"standings\">\n");
   for (const Standing standing : assessment::kAllStandings) {
-    const auto count =
-        std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return row.found.standing == standing; });
+    const Counted count = counted(rows, [&](const Row& row) { return row.found.standing == standing; });
     html.raw("<div class=\"").text(assessment::name_of(standing)).raw("\"><dt>").text(standing_text(standing));
-    html.raw("</dt><dd>").text(std::to_string(count)).raw("</dd></div>\n");
+    html.raw("</dt><dd>").text(std::to_string(count.people));
+    if (count.simulated > 0)
+      html.raw("<span class=\"why\">").text(and_simulated_text(count.simulated)).raw("</span>");
+    html.raw("</dd></div>\n");
   }
   html.raw("</dl>\n");
 }
@@ -135,8 +150,10 @@ void add_row(Html& html, const Row& row, std::int64_t now_us) {
 
 void add_people(Html& html, const std::vector<Row>& rows, const LearnersView& view) {
   html.raw("<div class=\"wide\">\n<table class=\"list learners\">\n<caption>");
-  html.name(rows.front().record->curriculum.title).raw(": ").text(std::to_string(rows.size()));
-  html.text(rows.size() == 1 ? " learner" : " learners");
+  html.name(rows.front().record->curriculum.title).raw(": ");
+  const Counted count = counted(rows, [](const Row&) { return true; });
+  html.text(std::to_string(count.people) + (count.people == 1 ? " learner" : " learners") +
+            and_simulated_text(count.simulated));
   html.raw(
       ". ● proficient ◐ passed ○ practising – not started</caption>\n<thead><tr><th scope=\"col\">Learner</th><th "
       "scope=\"col\">State</th><th scope=\"col\">Why</th>");
@@ -152,10 +169,14 @@ void add_people(Html& html, const std::vector<Row>& rows, const LearnersView& vi
   html.raw("</tbody>\n</table>\n</div>\n");
 }
 
-// What keeps whom: each item with how many are where, and what is missed most by those who practise it.
-void add_items(Html& html, const std::vector<Row>& rows) {
+// What keeps whom: each item with how many are where, and what is missed most by those who practise it. Of people;
+// where nobody is one, of the simulated.
+void add_items(Html& html, std::vector<Row> rows) {
+  const bool simulated = counted(rows, [](const Row&) { return true; }).people == 0;
+  std::erase_if(rows, [&](const Row& row) { return row.learner->simulated != simulated; });
+  html.raw("<section>\n<h2>Item by item</h2>\n<div class=\"wide\">\n<table class=\"list\">\n<caption>How many ");
+  html.text(simulated ? "simulated learners " : "learners ");
   html.raw(
-      "<section>\n<h2>Item by item</h2>\n<div class=\"wide\">\n<table class=\"list\">\n<caption>How many learners "
       "have come how far, and what their attempts that did not pass missed</caption>\n<thead><tr><th "
       "scope=\"col\">Item</th><th scope=\"col\" class=\"number\">Proficient</th><th scope=\"col\" "
       "class=\"number\">Passed</th><th scope=\"col\" class=\"number\">Practising</th><th scope=\"col\" "

@@ -8,6 +8,7 @@
 #include "reports/pages/sections/grade_section.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/people_words.h"
 #include "reports/words/standing_words.h"
 
 namespace seldinger::reports {
@@ -71,13 +72,13 @@ std::vector<InNeed> everybody(const LeaderStart& start) {
 void add_standings(Html& html, const std::vector<InNeed>& all) {
   struct Counts {
     std::string title;
-    std::array<int, std::size(assessment::kAllStandings)> of{};
+    std::array<int, std::size(assessment::kAllStandings)> of{}, simulated{};
   };
   std::map<std::string, Counts> by_curriculum;
   for (const InNeed& one : all) {
     Counts& counts = by_curriculum[one.record->curriculum.curriculum_id];
     counts.title = one.record->curriculum.title;
-    ++counts.of[static_cast<std::size_t>(one.found.standing)];
+    ++(one.learner->simulated ? counts.simulated : counts.of)[static_cast<std::size_t>(one.found.standing)];
   }
   for (const auto& [curriculum_id, counts] : by_curriculum) {
     html.raw("<h3>").name(counts.title).raw("</h3>\n<ul class=\"standings\">\n");
@@ -85,7 +86,8 @@ void add_standings(Html& html, const std::vector<InNeed>& all) {
       html.raw("<li class=\"").text(assessment::name_of(standing)).raw("\"><a href=\"/progress?curriculum=");
       html.text(curriculum_id).raw("&amp;standing=").text(assessment::name_of(standing)).raw("\">");
       html.text(standing_text(standing)).raw(" <strong>");
-      html.text(std::to_string(counts.of[static_cast<std::size_t>(standing)])).raw("</strong></a></li>\n");
+      html.text(std::to_string(counts.of[static_cast<std::size_t>(standing)])).raw("</strong>");
+      html.text(and_simulated_text(counts.simulated[static_cast<std::size_t>(standing)])).raw("</a></li>\n");
     }
     html.raw("</ul>\n");
   }

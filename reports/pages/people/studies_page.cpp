@@ -5,6 +5,7 @@
 
 #include "reports/words/attempt_words.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/people_words.h"
 
 namespace seldinger::reports {
 namespace {
@@ -22,15 +23,18 @@ std::string state_of_plan(const StudyView& view) {
 }
 
 std::string people_text(const StudyView& view) {
-  const std::string consenting = std::to_string(view.study.consenting) + " consent";
+  const std::string consenting = consent_text(view.study);
   if (!view.plan || !view.plan->frozen()) return consenting;
   return consenting + ", " + std::to_string(view.enrolments.size()) + " enrolled";
 }
 
+bool is_simulated(const StudyView& view) {
+  return view.plan && view.plan->plan.people == study::People::simulated;
+}
+
 // Wherever such a study is named.
 void add_simulated(Html& html, const StudyView& view) {
-  if (view.plan && view.plan->plan.people == study::People::simulated)
-    html.raw(" <span class=\"mark\">simulated</span>");
+  if (is_simulated(view)) html.raw(" <span class=\"mark\">simulated</span>");
 }
 
 Html study_list(const std::vector<StudyView>& studies) {
@@ -163,13 +167,14 @@ void add_people_in(Html& html, const StudyView& view) {
   html.raw("</tbody>\n</table>\n</div>\n</section>\n");
 }
 
-void add_notes(Html& html, std::string_view title, const std::vector<casedb::StudyNote>& notes, bool looks) {
+void add_notes(Html& html, std::string_view title, const std::vector<casedb::StudyNote>& notes, bool looks,
+               bool simulated) {
   html.raw("<section>\n<h2>").text(title).raw("</h2>\n");
   if (notes.empty()) html.raw("<p>None.</p>\n");
   if (!notes.empty()) html.raw("<ol>\n");
   for (const casedb::StudyNote& one : notes) {
     html.raw("<li>").text(date_text(one.at_us)).raw(": ").name(one.text);
-    if (looks) html.raw(", of ").text(std::to_string(one.people)).raw(" people with an outcome");
+    if (looks) html.raw(", of ").text(with_outcome_text(one.people, simulated));
     html.raw("</li>\n");
   }
   if (!notes.empty()) html.raw("</ol>\n");
@@ -242,8 +247,8 @@ std::string study_page(const Visitor& visitor, const StudyView& view) {
     add_flow(html, view);
     add_visits(html, view);
     add_people_in(html, view);
-    add_notes(html, "Looks at the outcomes", view.looks, true);
-    add_notes(html, "Deviations from the plan", view.deviations, false);
+    add_notes(html, "Looks at the outcomes", view.looks, true, is_simulated(view));
+    add_notes(html, "Deviations from the plan", view.deviations, false, is_simulated(view));
   } else {
     add_blinded(html, view.blinded);
   }

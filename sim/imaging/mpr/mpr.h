@@ -45,7 +45,6 @@ HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserte
 // How the GPU finds where a pixel's tissue was: by itself for each, or on the CPU's grid of 2 mm
 // (sim/tissue/rest_plane.h), as mpr_cpu does. The first is hardware's; software GL takes 30 times as long for it.
 enum class WayBack { none, each_pixel, grid };
-constexpr tissue::InverseSteps kPixelSteps{.fixed_point = 4, .newton = 1};
 inline WayBack way_back_for(const gpu::Context& context) noexcept {
   return context.software() ? WayBack::grid : WayBack::each_pixel;
 }

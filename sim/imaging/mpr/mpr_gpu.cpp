@@ -113,8 +113,9 @@ struct Moving {
       grid.write(bytes);
       grid.bind(kGridBinding);
     } else {
-      parameters.fixed_point_steps = kPixelSteps.fixed_point;
-      parameters.newton_steps = kPixelSteps.newton;
+      const tissue::InverseSteps steps = tissue::picture_steps(displacement);
+      parameters.fixed_point_steps = steps.fixed_point;
+      parameters.newton_steps = steps.newton;
       sources.write(std::as_bytes(std::span(&displacement, 1)));
       sources.bind(kSourcesBinding);
     }

@@ -1,5 +1,6 @@
 #include "sim/imaging/room/draw_list.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@ const glm::vec4 kWheal(0.64F, 0.42F, 0.33F, 1.0F), kWound(0.24F, 0.02F, 0.02F, 1
 const glm::vec4 kGel(0.62F, 0.47F, 0.22F, 1.0F), kTray(0.50F, 0.52F, 0.54F, 1.0F);
 const glm::vec4 kFloor(0.17F, 0.19F, 0.21F, 1.0F), kWalls(0.40F, 0.44F, 0.45F, 1.0F);
 const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.50F, 0.44F, 0.32F, 1.0F);
+const glm::vec4 kIntroducerHub(0.75F, 0.55F, 0.10F, 1.0F);
 const glm::vec4 kTarget(0.10F, 0.65F, 0.18F, 1.0F);
 const glm::vec4 kPlaneLine(0.10F, 0.55F, 0.75F, 0.55F), kNeedleLine(0.85F, 0.70F, 0.10F, 0.55F);
 const glm::vec4 kPlanLine(0.10F, 0.65F, 0.18F, 0.55F);
@@ -24,6 +26,10 @@ constexpr double kWhealRadiusMm = 5.0, kWhealHeightMm = 1.5;  // a bleb in the s
 // A stab with a pointed blade, 3 to 5 mm long and gaping a little; nobody says which way it is: across the body, as
 // skin's lines run on a trunk (design).
 constexpr double kNickHalfLengthMm = 2.0, kNickHalfWidthMm = 0.5, kNickHeightMm = 0.3;
+// A coaxial set's: its tube is 0.1 mm thick (introducer_for in sim/haptics/needle/needle_tissue.cpp); its needle
+// goes some 30 mm beyond (design).
+constexpr double kIntroducerWallMm = 0.1, kBeyondIntroducerMm = 30.0;
+constexpr double kIntroducerHubMm = 10.0, kIntroducerHubRadiusMm = 4.0;
 constexpr int kTurnedPieces = 12;  // of an arc whose console was turned
 
 glm::dmat4 pose(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin) {
@@ -156,6 +162,30 @@ class Maker {
     hub.lps_from_mesh = pose(axes.x, axes.y, z, tip - z * (state_.fire.fired ? room_.throw_mm : 0.0));
     hub.roughness = 0.4F;
     hub.casts = Casts::tools;
+    add(hub);
+  }
+
+  // As much shorter than its needle as that goes beyond it.
+  void introducer(const RoomIntroducer& its) {
+    const Axes axes = across(its.axis, room_.frame);
+    const double length_mm = std::max(kIntroducerHubMm, scene_.instrument.length_mm - kBeyondIntroducerMm);
+    const auto turned = [&](double radius_mm, double from_mm, double to_mm) {
+      RoomItem item;
+      item.part = RoomPart::introducer;
+      item.mesh = room_.rod;
+      item.lps_from_mesh = pose(radius_mm * axes.x, radius_mm * axes.y, (to_mm - from_mm) * its.axis,
+                                its.end_lps_mm + from_mm * its.axis);
+      item.casts = Casts::tools;
+      item.least_half_px = 0.75;
+      return item;
+    };
+    RoomItem tube = turned(room_.shaft_radius_mm + kIntroducerWallMm, -length_mm, 0.0);
+    tube.roughness = 0.28F;
+    tube.metal = 0.9F;
+    add(tube);
+    RoomItem hub = turned(kIntroducerHubRadiusMm, -length_mm, kIntroducerHubMm - length_mm);
+    hub.colour = kIntroducerHub;
+    hub.roughness = 0.4F;
     add(hub);
   }
 
@@ -321,6 +351,7 @@ void make_draw_list(const RoomModel& room, const cases::Case& scene, const cases
   make.wheals();
   make.nicks();
   if (options.needle) make.needle();
+  if (options.introducer) make.introducer(*options.introducer);
   if (options.probe) make.probe();
   make.c_arm();
   make.surroundings();

@@ -27,6 +27,7 @@ enum class RoomPart : std::uint8_t {
   nick,   // and where it is cut
   needle_shaft,
   needle_hub,
+  introducer,  // its tube, and its hub
   probe,
   target,
   structure,
@@ -70,6 +71,11 @@ struct DrawList {
   bool needs_displacement = false;  // something displaced is in the list
 };
 
+// The tube through which a core needle goes.
+struct RoomIntroducer {
+  glm::dvec3 end_lps_mm{0.0}, axis{0.0, 0.0, 1.0};  // unit, hub → end
+};
+
 struct RoomOptions {
   // 0: as in reality. 1: the scan plane's outline. 2: also the planned entry, and the line on which the needle
   // would go on. 3: also the target through the skin, and the planned path.
@@ -81,6 +87,7 @@ struct RoomOptions {
   bool needle = true, probe = true;            // what hands hold
   std::span<const glm::dvec3> numb_lps_mm{};   // where an anaesthetic was given, of the skin at rest
   std::span<const glm::dvec3> nicks_lps_mm{};  // and where the skin was nicked
+  std::optional<RoomIntroducer> introducer{};
 };
 
 // Of a state: the tools where hands hold them. `list` is emptied first.

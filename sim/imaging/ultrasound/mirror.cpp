@@ -129,7 +129,7 @@ std::vector<UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tis
   return mirrors;
 }
 
-shaders::UsMirrorParameters mirror_parameters(const UltrasoundView& view, const NoiseKey* receiver) {
+shaders::UsMirrorParameters mirror_parameters(const UltrasoundView& view) {
   shaders::UsMirrorParameters p{};
   const Fan fan = fan_of(view);
   p.beams = view.beams;
@@ -140,12 +140,6 @@ shaders::UsMirrorParameters mirror_parameters(const UltrasoundView& view, const 
   p.beam_step = static_cast<float>(fan.beam_step);
   p.sample_mm = static_cast<float>(fan.sample_mm);
   p.loss_db_mm = static_cast<float>(shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, working_mhz(view)));
-  if (receiver != nullptr) {
-    p.noisy = 1;
-    p.noise_first = receiver->first;
-    p.noise_second = receiver->second;
-    p.noise_mean_square = static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0));
-  }
   return p;
 }
 

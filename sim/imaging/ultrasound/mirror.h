@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "shaders/shared/ultrasound_passes.glsl.h"
-#include "sim/imaging/noise.h"
 #include "sim/imaging/ultrasound/view/fan.h"
 #include "sim/imaging/ultrasound/view/motion.h"
 
@@ -27,8 +26,8 @@ inline bool tells_layers(const UltrasoundView& view) {
 std::vector<shaders::UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at,
                                           const PictureMotion* motion, std::span<const float> depth_below_skin_mm);
 
-// What a shader is told that does the same, and then adds the receiver's noise.
-shaders::UsMirrorParameters mirror_parameters(const UltrasoundView& view, const NoiseKey* receiver);
+// What a shader is told that does the same.
+shaders::UsMirrorParameters mirror_parameters(const UltrasoundView& view);
 
 // Adds to the envelope what shows behind the mirrors.
 void add_mirrored(const UltrasoundView& view, std::span<const shaders::UsMirror> mirrors, PolarPicture& picture);

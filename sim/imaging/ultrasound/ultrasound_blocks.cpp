@@ -20,7 +20,6 @@ namespace {
 
 using shaders::kUsOutputs;
 using shaders::UsBeam;
-using shaders::UsGreyParameters;
 using shaders::UsLatticeDepth;
 using shaders::UsLatticeParameters;
 using shaders::UsLineParameters;
@@ -31,8 +30,8 @@ using shaders::UsTissue;
 static_assert(sizeof(UsTissue) == 1056 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 320 &&
               sizeof(shaders::UsMotion) == 80);
 static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
-static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
-static_assert(sizeof(shaders::UsMirror) == 32 && sizeof(shaders::UsMirrorParameters) == 48);
+static_assert(sizeof(UsPulseParameters) == 48);
+static_assert(sizeof(shaders::UsMirror) == 32 && sizeof(shaders::UsMirrorParameters) == 32);
 static_assert(sizeof(UsLineParameters) == 384 && sizeof(UsBeam) == 272);
 static_assert(shaders::kUsLinesPerBeam == LatticeField::kLinesPerBeam);
 static_assert(shaders::kUsMaxLesions == kMaxLesions && shaders::kUsPhases == kPhases);
@@ -350,8 +349,7 @@ std::vector<PulseTap> taps_of(const UltrasoundView& view, int fine) {
 
 }  // namespace
 
-UsPulseParameters pulse_parameters(const UltrasoundView& view, int fine, int most_echoes,
-                                   const NoiseKey* receiver) {
+UsPulseParameters pulse_parameters(const UltrasoundView& view, int fine, int most_echoes) {
   UsPulseParameters p{};
   const std::vector<PulseTap> taps = taps_of(view, fine);
   const double sample_mm = fan_of(view).sample_mm, mhz = working_mhz(view);
@@ -361,12 +359,6 @@ UsPulseParameters pulse_parameters(const UltrasoundView& view, int fine, int mos
   p.first_tap = taps.front().shift * fine + taps.front().part;
   p.taps = static_cast<int>(taps.size());
   p.most_echoes = most_echoes;
-  if (receiver != nullptr) {
-    p.noisy = 1;
-    p.noise_first = receiver->first;
-    p.noise_second = receiver->second;
-    p.noise_mean_square = static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0));
-  }
   p.sample_mm = static_cast<float>(sample_mm);
   p.sigma_mm = static_cast<float>(beam_width(view.probe, mhz, view.focus_mm, 1.0).axial_sigma_mm);
   p.fine_per_mm = static_cast<float>(fine / sample_mm);
@@ -380,29 +372,6 @@ std::vector<float> pulse_weights(const UltrasoundView& view, int fine) {
   std::vector<float> weights(taps.size() + 2 * padding, 0.0F);
   for (std::size_t i = 0; i < taps.size(); ++i) weights[padding + i] = taps[i].weight;
   return weights;
-}
-
-UsGreyParameters grey_parameters(const UltrasoundView& view, const UltrasoundKnobs& knobs, DisplaySize size) {
-  UsGreyParameters p{};
-  const Fan fan = fan_of(view);
-  const Screen screen = screen_of(view, size);
-  p.width_px = size.width_px;
-  p.height_px = size.height_px;
-  p.beams = view.beams;
-  p.samples = view.samples;
-  p.pixel_mm = static_cast<float>(screen.pixel_mm);
-  p.top_mm = static_cast<float>(screen.top_mm);
-  p.radius_mm = static_cast<float>(fan.radius_mm);
-  p.first_beam = static_cast<float>(fan.first_beam);
-  p.beam_step = static_cast<float>(fan.beam_step);
-  p.sample_mm = static_cast<float>(fan.sample_mm);
-  p.depth_mm = static_cast<float>(view.depth_mm);
-  p.black_db = static_cast<float>(kWhiteDb - knobs.dynamic_range_db);
-  p.per_db = static_cast<float>(255.0 / knobs.dynamic_range_db);
-  p.curved = fan.curved ? 1 : 0;
-  p.flipped = knobs.flip ? 1 : 0;
-  p.mapped = knobs.grey_map != GreyMap::linear ? 1 : 0;
-  return p;
 }
 
 }  // namespace seldinger::imaging

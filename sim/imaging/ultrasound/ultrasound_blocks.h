@@ -54,12 +54,8 @@ struct Lines {
 Lines walked_lines(const UltrasoundView& view, const LineWalker& walker,
                    std::span<const float> depth_below_skin_mm);
 
-shaders::UsPulseParameters pulse_parameters(const UltrasoundView& view, int fine, int most_echoes,
-                                            const NoiseKey* receiver);
+shaders::UsPulseParameters pulse_parameters(const UltrasoundView& view, int fine, int most_echoes);
 // Of the taps, with zeros on either side.
 std::vector<float> pulse_weights(const UltrasoundView& view, int fine);
-
-shaders::UsGreyParameters grey_parameters(const UltrasoundView& view, const UltrasoundKnobs& knobs,
-                                          DisplaySize size);
 
 }  // namespace seldinger::imaging

@@ -11,7 +11,6 @@
 #include "sim/gpu/buffer.h"
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
-#include "sim/imaging/noise.h"
 #include "sim/imaging/ultrasound/mirror.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/ultrasound_blocks.h"
@@ -26,8 +25,7 @@ namespace seldinger::imaging {
 namespace {
 
 using shaders::kUsOutputs;
-constexpr int kGroup = 64;  // local_size of the shaders but of the screen's
-constexpr int kGroupPx = 16;
+constexpr int kGroup = 64;  // local_size of the shaders
 
 std::string_view shader(std::string_view name) {
   return base::content_of(embedded::ultrasound_shaders(), name);
@@ -97,14 +95,12 @@ struct UltrasoundGpu::Parts {
         pulse(context, shader("ultrasound_pulse.comp")),
         pulse_shifted(context, shader("ultrasound_pulse_shifted.comp")),
         mirror(context, shader("ultrasound_mirror.comp")),
-        grey(context, shader("ultrasound_grey.comp")),
         tissue_block(context, gpu::BufferUse::uniform, sizeof(shaders::UsTissue)),
         lattice_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsLatticeParameters)),
         scatter_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsScatterParameters)),
         line_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsLineParameters)),
         pulse_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsPulseParameters)),
         mirror_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsMirrorParameters)),
-        grey_parameters(context, gpu::BufferUse::uniform, sizeof(shaders::UsGreyParameters)),
         phases(context, gpu::BufferUse::uniform, kPhases * sizeof(glm::vec4)),
         tiles(context),
         depths(context),
@@ -123,10 +119,7 @@ struct UltrasoundGpu::Parts {
         laid(context),
         envelope(context),
         mirrors(context),
-        mirrored(context),
-        gain(context),
-        map(context),
-        picture(context) {
+        mirrored(context) {
     std::vector<glm::vec4> turns;
     for (const auto& [re, im] : imaging::phases()) turns.emplace_back(re, im, 0.0F, 0.0F);
     phases.write(std::as_bytes(std::span(turns)));
@@ -140,18 +133,17 @@ struct UltrasoundGpu::Parts {
                   std::span<const float> depth_below_skin_mm);
   int walk_by_cpu(const UltrasoundView& view, const LineWalker& walker, std::span<const float> depth_below_skin_mm);
   void make_envelope(const UltrasoundView& view, const Inserted& inserted,
-                     std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement,
-                     const NoiseKey* receiver);
+                     std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement);
 
   TissueVolume tissue;
   bool gpu_walks;
   glm::dmat4 voxel_from_lps;
   gpu::Texture voxels;
-  gpu::Program scatter, lattice_noise, lattice_beams, walk, echo, shift, pulse, pulse_shifted, mirror, grey;
+  gpu::Program scatter, lattice_noise, lattice_beams, walk, echo, shift, pulse, pulse_shifted, mirror;
   gpu::Buffer tissue_block, lattice_parameters, scatter_parameters, line_parameters, pulse_parameters,
-      mirror_parameters, grey_parameters, phases;
+      mirror_parameters, phases;
   Storage tiles, depths, noise, sums, beams, neighbours, loss_db, interfaces, counts, weights, through, shift_mm,
-      echo_counts, echoes, laid, envelope, mirrors, mirrored, gain, map, picture;
+      echo_counts, echoes, laid, envelope, mirrors, mirrored;
   bool shows_mirrored = false;  // in the last picture
   Storage& shown() noexcept { return shows_mirrored ? mirrored : envelope; }
   std::optional<MovedPrograms> moved;
@@ -256,7 +248,7 @@ int UltrasoundGpu::Parts::walk_by_cpu(const UltrasoundView& view, const LineWalk
 
 void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inserted& inserted,
                                          std::span<const float> depth_below_skin_mm,
-                                         const tissue::Displacement& displacement, const NoiseKey* receiver) {
+                                         const tissue::Displacement& displacement) {
   check_view(view, depth_below_skin_mm);
   CHECK(view.method != UltrasoundMethod::thesis);
   const std::optional<PictureMotion> moving = motion_of(view, displacement);
@@ -282,9 +274,7 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
                                     : walk_by_cpu(view, walker, depth_below_skin_mm);
   const std::vector<shaders::UsMirror> meets = mirrors_of(view, tissue_at, motion, depth_below_skin_mm);
   shows_mirrored = !meets.empty() && view.beams > 1 && view.samples > 1;
-  // Noise comes last.
-  write_block(pulse_parameters,
-              imaging::pulse_parameters(view, fine, most_echoes, shows_mirrored ? nullptr : receiver));
+  write_block(pulse_parameters, imaging::pulse_parameters(view, fine, most_echoes));
   weights.write(pulse_weights(view, fine));
   envelope.need(polar * sizeof(float));
   pulse_parameters.bind(0);
@@ -304,7 +294,7 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   envelope.bind(7);
   (view.range_error ? pulse_shifted : pulse).dispatch(groups(view.samples, kGroup * kUsOutputs), view.beams, 1);
   if (!shows_mirrored) return;
-  write_block(mirror_parameters, imaging::mirror_parameters(view, receiver));
+  write_block(mirror_parameters, imaging::mirror_parameters(view));
   mirrors.write(meets);
   mirrored.need(polar * sizeof(float));
   mirror_parameters.bind(0);
@@ -322,63 +312,22 @@ UltrasoundGpu::~UltrasoundGpu() = default;
 void UltrasoundGpu::polar(const UltrasoundView& view, const Inserted& inserted,
                           std::span<const float> depth_below_skin_mm, PolarPicture& picture,
                           const tissue::Displacement& displacement) {
-  parts_->make_envelope(view, inserted, depth_below_skin_mm, displacement, nullptr);
+  parts_->make_envelope(view, inserted, depth_below_skin_mm, displacement);
   picture.beams = view.beams;
   picture.samples = view.samples;
   picture.envelope.resize(static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples));
   parts_->shown().buffer().read(std::as_writable_bytes(std::span(picture.envelope)));
 }
 
-void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
-                         std::span<const float> depth_below_skin_mm, const UltrasoundKnobs& knobs, DisplaySize size,
-                         std::uint64_t frame, std::vector<unsigned char>& grey,
-                         const tissue::Displacement& displacement) {
-  CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
-  CHECK(knobs.dynamic_range_db > 0.0);
-  Parts& parts = *parts_;
-  const NoiseKey noise = noise_key(view.seed, frame);
-  parts.make_envelope(view, inserted, depth_below_skin_mm, displacement, &noise);
-
-  write_block(parts.grey_parameters, imaging::grey_parameters(view, knobs, size));
-  std::vector<float> gain(static_cast<std::size_t>(view.samples) + 1);
-  for (int k = 0; k <= view.samples; ++k)
-    gain[static_cast<std::size_t>(k)] = static_cast<float>(
-        display_gain_db(view, knobs, (std::min(k, view.samples - 1) + 0.5) * view.depth_mm / view.samples));
-  parts.gain.write(gain);
-  const auto map = grey_table(knobs.grey_map);
-  parts.map.write(std::vector<std::uint32_t>(map.begin(), map.end()));
-  const int words = groups(size.width_px, shaders::kUsPixels);
-  const std::size_t bytes =
-      static_cast<std::size_t>(words) * static_cast<std::size_t>(size.height_px) * sizeof(std::uint32_t);
-  parts.picture.need(bytes);
-  parts.grey_parameters.bind(0);
-  parts.shown().bind(1);
-  parts.gain.bind(2);
-  parts.map.bind(3);
-  parts.picture.bind(4);
-  parts.grey.dispatch(groups(words, kGroupPx), groups(size.height_px, kGroupPx), 1);
-  grey.resize(bytes);
-  parts.picture.buffer().read(std::as_writable_bytes(std::span(grey)));
-  // Rows end with what fills their last number.
-  const auto width = static_cast<std::size_t>(size.width_px), row = static_cast<std::size_t>(words) * 4;
-  if (row != width)
-    for (std::size_t r = 1; r < static_cast<std::size_t>(size.height_px); ++r)
-      std::copy_n(grey.begin() + static_cast<std::ptrdiff_t>(r * row), width,
-                  grey.begin() + static_cast<std::ptrdiff_t>(r * width));
-  grey.resize(width * static_cast<std::size_t>(size.height_px));
-}
-
 std::size_t UltrasoundGpu::buffer_bytes() const noexcept {
   Parts& p = *parts_;
   std::size_t bytes = 0;
-  for (const gpu::Buffer* buffer :
-       {&p.tissue_block, &p.lattice_parameters, &p.scatter_parameters, &p.line_parameters, &p.pulse_parameters,
-        &p.mirror_parameters, &p.grey_parameters, &p.phases})
+  for (const gpu::Buffer* buffer : {&p.tissue_block, &p.lattice_parameters, &p.scatter_parameters,
+                                    &p.line_parameters, &p.pulse_parameters, &p.mirror_parameters, &p.phases})
     bytes += buffer->size();
-  for (Storage* storage :
-       {&p.tiles,      &p.depths,   &p.noise,   &p.sums,     &p.beams,    &p.neighbours,  &p.loss_db,
-        &p.interfaces, &p.counts,   &p.weights, &p.through,  &p.shift_mm, &p.echo_counts, &p.echoes,
-        &p.laid,       &p.envelope, &p.mirrors, &p.mirrored, &p.gain,     &p.map,         &p.picture})
+  for (Storage* storage : {&p.tiles, &p.depths, &p.noise, &p.sums, &p.beams, &p.neighbours, &p.loss_db,
+                           &p.interfaces, &p.counts, &p.weights, &p.through, &p.shift_mm, &p.echo_counts, &p.echoes,
+                           &p.laid, &p.envelope, &p.mirrors, &p.mirrored})
     bytes += storage->buffer().size();
   if (p.moved) bytes += p.moved->block.size() + p.moved->slab.buffer().size() + p.moved->paths.buffer().size();
   return bytes;

@@ -1,6 +1,5 @@
-// Ultrasound on the GPU (GL 4.3 compute): the picture of ultrasound_polar and ScanConverter, of the same numbers in
-// float. Passes: what lies along the beams → scatterers or lattice → where sound of another speed shows them →
-// pulse and echoes → screen.
+// Ultrasound on the GPU (GL 4.3 compute): the envelope of ultrasound_polar, of the same numbers in float. Passes:
+// what lies along the beams → scatterers or lattice → where sound of another speed shows them → pulse and echoes.
 #pragma once
 
 #include <memory>
@@ -30,12 +29,6 @@ class UltrasoundGpu {
   // As ultrasound_polar. A displacement with sources only of tissue that moves (CHECKed).
   void polar(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
              PolarPicture& picture, const tissue::Displacement& displacement = {});
-
-  // The same, add_receiver_noise(view.seed, frame) and ScanConverter(view, size).grey, and only the grey comes
-  // back.
-  void grey(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
-            const UltrasoundKnobs& knobs, DisplaySize size, std::uint64_t frame, std::vector<unsigned char>& grey,
-            const tissue::Displacement& displacement = {});
 
   // On the GPU: the buffers, which grow to what a picture needs, and the tissue.
   std::size_t buffer_bytes() const noexcept;

@@ -58,9 +58,10 @@ class Sight {
           shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
     }
     if (tissue::count_sources(displacement) > 0)
-      at_rest_ = RestFan::when_asked(view, kSightMm, 0.0, [&](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
-        return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
-      });
+      at_rest_ = RestFan::when_asked(view, kSightMm, 0.0,
+                                     [&](std::span<const glm::dvec3> at_lps_mm, std::span<glm::dvec3> rest_lps_mm) {
+                                       tissue::rest_of(displacement, at_lps_mm, 4, rest_lps_mm);
+                                     });
   }
 
   // Of what is told at rest.
@@ -91,12 +92,12 @@ class Sight {
   double beams_of(double across_mm, double depth_mm) const { return across_mm / fan_.beam_spacing_mm(depth_mm); }
 
   // Two-way, from the face down to a depth, as LineWalker adds it up in finer steps.
-  double loss_db(double beam, double depth_mm) const {
+  double loss_db(double beam, double depth_mm) const { return loss_db(fan_.way(beam), beam, depth_mm); }
+  double loss_db(const Fan::Way& way, double beam, double depth_mm) const {
     if (!beam_touches(view_, below_skin_mm_, beam)) return shaders::kUsDeadDb;
     const double deepest_mm = std::max(depth_mm, shaders::kUsGelMm);
-    const Fan::Way way = fan_.way(beam);
     const BeamPath path =
-        at_rest_ ? at_rest_->path_down_to(beam, deepest_mm) : BeamPath(way.start_lps_mm, way.direction);
+        at_rest_ ? at_rest_->path_down_to(way, beam, deepest_mm) : BeamPath(way.start_lps_mm, way.direction);
     const int steps = std::max(1, static_cast<int>(std::ceil(depth_mm / kWalkMm)));
     const double dz = depth_mm / steps;
     const auto tissue = [&](double z_mm) { return tissue_at_(path.at(z_mm)); };
@@ -130,18 +131,18 @@ class Sight {
     const double amplitude = static_cast<double>(tissue_at_.speckle(p));
     return amplitude * amplitude;
   }
-  double scatter_around(const Place& at) const {
+  double scatter_around(const Fan::Way& way, const Place& at) const {
     const double aside = beams_of(kAroundMm, at.depth_mm);
-    const Fan::Way way = fan_.way(at.beam);
+    if (at_rest_) at_rest_->ask(at.beam - aside, at.beam + aside, at.depth_mm - kAroundMm, at.depth_mm + kAroundMm);
     const auto beside = [&](double beam) { return scatter(fan_.way(beam), beam, at.depth_mm); };
     return 0.2 * (scatter(way, at.beam, at.depth_mm) + beside(at.beam - aside) + beside(at.beam + aside) +
                   scatter(way, at.beam, at.depth_mm - kAroundMm) + scatter(way, at.beam, at.depth_mm + kAroundMm));
   }
 
   // Amplitude of the needle's echo without loss, at a place on its shaft or at its tip.
-  double needle_amplitude(const NeedlePose& needle, const Place& at, bool tip) const {
+  double needle_amplitude(const NeedlePose& needle, const Fan::Way& way, const Place& at, bool tip) const {
     const glm::dvec3 along = glm::normalize(needle.direction);
-    const double sine = std::min(1.0, std::abs(glm::dot(along, fan_.direction(at.beam))));
+    const double sine = std::min(1.0, std::abs(glm::dot(along, way.direction)));
     const NeedleEcho echo = needle_echo(view_, needle, at.depth_mm, std::asin(sine));
     const double y = at.off_plane_mm / slice_sigma_mm(at.depth_mm);
     if (!tip) return drawn(echo.shaft(), std::exp(-0.5 * y * y));
@@ -163,22 +164,28 @@ class Sight {
     return shows_clutter(view_) ? noise + power(clutter_db(view_, depth_mm)) : noise;
   }
 
-  // Whether speckle alone hides it, whatever is lost on the way.
-  bool is_in_speckle(const NeedlePose& needle, const Place& at, bool tip) const {
-    return decibels(std::pow(needle_amplitude(needle, at, tip), 2.0)) <
-           decibels(scatter_around(at)) + kNeedleAboveDb;
+  // A needle at a place of the field and what lies about it there: mean squares before the way takes its share.
+  struct Glance {
+    Place at;
+    Fan::Way way;
+    double echo, scatter;
+    // Speckle alone hides it, whatever is lost on the way.
+    bool is_in_speckle() const { return decibels(echo) < decibels(scatter) + kNeedleAboveDb; }
+  };
+  Glance glance(const NeedlePose& needle, const Place& at, bool tip) const {
+    const Fan::Way way = fan_.way(at.beam);
+    return {at, way, std::pow(needle_amplitude(needle, way, at, tip), 2.0), scatter_around(way, at)};
   }
-  NeedleLevel level(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
-    const Place at = place(p_lps_mm);
+  NeedleLevel level(const Glance& glance) const {
+    const Place& at = glance.at;
     NeedleLevel level;
-    level.in_field = in_field(at);
+    level.in_field = true;
     level.off_plane_mm = at.off_plane_mm;
-    if (!level.in_field) return level;
-    const double loss = loss_db(at.beam, at.depth_mm), scatter = scatter_around(at);
-    level.echo_db = decibels(std::pow(needle_amplitude(needle, at, tip), 2.0)) - loss;
+    const double loss = loss_db(glance.way, at.beam, at.depth_mm);
+    level.echo_db = decibels(glance.echo) - loss;
     // As the picture, the newest law adds up; those before it took the larger (docs/decisions/0090).
-    level.background_db = shows_clutter(view_) ? decibels(scatter * power(-loss) + over_all(at.depth_mm))
-                                               : std::max(decibels(scatter) - loss, kReceiverNoiseDb);
+    level.background_db = shows_clutter(view_) ? decibels(glance.scatter * power(-loss) + over_all(at.depth_mm))
+                                               : std::max(decibels(glance.scatter) - loss, kReceiverNoiseDb);
     return level;
   }
 
@@ -277,13 +284,12 @@ class Looks {
   Looks& operator=(const Looks&) = delete;
   const Sight& middle() const { return looks_.front(); }
 
-  // At a place in the field of the middle one; the walk is spared where speckle hides the needle in every look.
+  // At a place in the field of the middle one. Beams are walked down only as far as the answer hangs on them.
   bool needle_stands_out(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
-    const bool is_hidden = std::all_of(looks_.begin(), looks_.end(), [&](const Sight& look) {
-      const Place at = look.place(p_lps_mm);
-      return !shows(look, at) || look.is_in_speckle(needle, at, tip);
-    });
-    return !is_hidden && level(needle, p_lps_mm, tip).stands_out();
+    const Glances glances = look_at(needle, p_lps_mm, tip);
+    const auto hides = [](const Glances::value_type& one) { return !one || one->is_in_speckle(); };
+    if (std::all_of(glances.begin(), glances.end(), hides)) return false;
+    return stands_out_of_few(glances) || mean_of(glances).stands_out();
   }
 
   double visible_shaft_mm(const NeedlePose& needle) const {
@@ -299,22 +305,11 @@ class Looks {
   }
 
   NeedleLevel level(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
-    NeedleLevel mean = middle().level(needle, p_lps_mm, tip);
     const Place in_middle = middle().place(p_lps_mm);
-    if (looks_.size() == 1 || !mean.in_field || !middle().touches(in_middle)) return mean;
-    double echo = 0.0, background = 0.0, count = 0.0;
-    for (const Sight& look : looks_) {
-      const Place at = look.place(p_lps_mm);
-      if (!shows(look, at)) continue;
-      const NeedleLevel one = &look == &middle() ? mean : look.level(needle, p_lps_mm, tip);
-      const double less_db = begun_db(at, in_middle);
-      echo += power(one.echo_db - less_db);
-      background += power(one.background_db - less_db);
-      count += 1.0;
-    }
-    mean.echo_db = decibels(echo / count);
-    mean.background_db = decibels(background / count);
-    return mean;
+    if (middle().in_field(in_middle)) return mean_of(look_at(needle, p_lps_mm, tip));
+    NeedleLevel none;
+    none.off_plane_mm = in_middle.off_plane_mm;
+    return none;
   }
 
   // Speckle is evened out by as many looks as see the target.
@@ -337,9 +332,53 @@ class Looks {
   }
 
  private:
-  // Whether a place is shown by a look: what the compounder lays over the middle one (Compounder::mean).
-  bool shows(const Sight& look, const Place& at) const {
-    return &look == &middle() || (look.in_field(at) && look.touches(at));
+  using Glances = std::array<std::optional<Sight::Glance>, kLooks>;  // of the looks that show a place
+  // In the field of the middle one; the others as the compounder lays them over it (Compounder::mean).
+  Glances look_at(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
+    Glances glances;
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      const Place at = looks_[i].place(p_lps_mm);
+      if (i == 0 || (looks_[i].in_field(at) && looks_[i].touches(at)))
+        glances[i] = looks_[i].glance(needle, at, tip);
+    }
+    return glances;
+  }
+  NeedleLevel mean_of(const Glances& glances) const {
+    NeedleLevel mean = middle().level(*glances.front());
+    if (looks_.size() == 1 || !middle().touches(glances.front()->at)) return mean;
+    double echo = 0.0, background = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      if (!glances[i]) continue;
+      const NeedleLevel one = i == 0 ? mean : looks_[i].level(*glances[i]);
+      const double less_db = begun_db(glances[i]->at, glances.front()->at);
+      echo += power(one.echo_db - less_db);
+      background += power(one.background_db - less_db);
+      count += 1.0;
+    }
+    mean.echo_db = decibels(echo / count);
+    mean.background_db = decibels(background / count);
+    return mean;
+  }
+  // Of the sum that mean_of asks for, a look in which speckle does not hide the needle takes away no more than what
+  // lies over all echoes there. Where the others have more than that to spare, nobody need walk down its beam.
+  bool stands_out_of_few(const Glances& glances) const {
+    if (looks_.size() == 1 || !middle().touches(glances.front()->at)) return false;
+    const double least = power(kNeedleAboveDb);
+    double spare = 0.0, taken = 0.0, rounding = 0.0;
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      if (!glances[i]) continue;
+      const Place& at = glances[i]->at;
+      const double share = power(-begun_db(at, glances.front()->at));
+      if (i > 0 && !glances[i]->is_in_speckle()) {
+        taken += share * least * looks_[i].over_all(at.depth_mm);
+        continue;
+      }
+      const NeedleLevel one = looks_[i].level(*glances[i]);
+      const double echo = share * power(one.echo_db), background = share * least * power(one.background_db);
+      spare += echo - background;
+      rounding += 1e-9 * (echo + background);
+    }
+    return spare - rounding > taken;
   }
   // What a look is lowered by where it is laid over the middle one, because it begins deeper.
   double begun_db(const Place& look, const Place& in_middle) const {

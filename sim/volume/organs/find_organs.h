@@ -26,6 +26,7 @@ enum class FoundOrgan : std::uint8_t {
   aorta,
   vena_cava,
   bladder,
+  gallbladder,
 };
 inline constexpr auto kFoundOrganNames = base::names<FoundOrgan>({{FoundOrgan::none, "none"},
                                                                   {FoundOrgan::liver, "liver"},
@@ -38,7 +39,8 @@ inline constexpr auto kFoundOrganNames = base::names<FoundOrgan>({{FoundOrgan::n
                                                                   {FoundOrgan::ribs, "ribs"},
                                                                   {FoundOrgan::aorta, "aorta"},
                                                                   {FoundOrgan::vena_cava, "vena_cava"},
-                                                                  {FoundOrgan::bladder, "bladder"}});
+                                                                  {FoundOrgan::bladder, "bladder"},
+                                                                  {FoundOrgan::gallbladder, "gallbladder"}});
 
 struct OrganFound {
   FoundOrgan organ = FoundOrgan::none;

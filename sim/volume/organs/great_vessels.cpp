@@ -264,7 +264,7 @@ std::vector<Part> find_great_vessels(const OrganGrid& grid, const Spine& spine) 
   Part aorta = vessel(grid, kAorta.organ, way),
        vena_cava = vessel(grid, kVenaCava.organ, best_way(slices, kVenaCava, way));
   // It runs beside the aorta; where there is none, another vein may look like it.
-  if (aorta.found.confidence < kOrganConfidence) vena_cava.found.confidence /= 2.0;
+  if (aorta.found.confidence < kOrganConfidence) vena_cava.found.confidence *= kDoubted;
   std::vector<Part> made;
   for (Part* one : {&aorta, &vena_cava})
     if (!one->voxels.empty()) made.push_back(std::move(*one));

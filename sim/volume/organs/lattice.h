@@ -14,6 +14,8 @@ namespace seldinger::volume {
 using Mask = std::vector<std::uint8_t>;   // one per voxel, not 0: in it
 using Voxels = std::vector<std::size_t>;  // their indices
 
+constexpr double kDoubted = 0.4;  // times: however sure it is but for that, it is not named
+
 struct Part {  // what may be named
   OrganFound found;
   Voxels voxels;

@@ -28,6 +28,7 @@ constexpr OrganClass class_of(FoundOrgan organ) {
     case FoundOrgan::vena_cava:
       return {TissueClass::vessel};
     case FoundOrgan::bladder:
+    case FoundOrgan::gallbladder:
       return {TissueClass::fluid};
     case FoundOrgan::none:
     case FoundOrgan::right_lung:

@@ -10,9 +10,10 @@ namespace seldinger::volume {
 
 // Where liver, spleen or a kidney is named, soft tissue becomes its class, in spleen and kidneys vessel too, since
 // HU tell what is full of contrast there from no vessel; a liver is never so bright (Bae, Radiology 2010;256:32),
-// so that a vessel in it stays one. Soft tissue of aorta and vena cava becomes vessel, of the bladder fluid. Fat,
-// gas, bone, cysts and metal within an organ stay. The organ's edge lies between the voxels of its grid. Found
-// organs and the phase of contrast are the same for the classes that are made. Classes: as many as voxels (CHECK).
+// so that a vessel in it stays one. Soft tissue of aorta and vena cava becomes vessel, of bladder and gallbladder
+// fluid. Fat, gas, bone, cysts and metal within an organ stay. The organ's edge lies between the voxels of its
+// grid. Found organs and the phase of contrast are the same for the classes that are made. Classes: as many as
+// voxels (CHECK).
 void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueClass>& classes);
 
 // What a new case stores, and a scene of a CT shows: a label with a known name decides (find_tissue.h); without

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "sim/volume/organs/gallbladder.h"
+
 namespace seldinger::volume {
 namespace {
 
@@ -22,6 +24,7 @@ struct OrganLaw {
   double reach_mm;     // a neck thinner than twice this parts it from others
   double compactness;  // least; of a ball 1
 };
+constexpr std::size_t kRightKidney = 0, kLeftKidney = 1, kLiver = 2;  // among the laws
 constexpr std::array<OrganLaw, 5> kLaws{{
     {FoundOrgan::right_kidney, {-95.0, -45.0}, {-25.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45},
     {FoundOrgan::left_kidney, {25.0, -45.0}, {95.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45},
@@ -29,6 +32,9 @@ constexpr std::array<OrganLaw, 5> kLaws{{
     {FoundOrgan::spleen, {70.0, -60.0}, {150.0, 60.0}, 60.0, 700.0, 78, 260, 12.0, 6.0, 0.4},
     {FoundOrgan::bladder, {-35.0, -140.0}, {35.0, -15.0}, 40.0, 800.0, -10, 26, 10.0, 6.0, 0.5},
 }};
+// Of bile, which may be as thick as muscle; then it is not told from a gut.
+constexpr OrganLaw kGallbladder{
+    FoundOrgan::gallbladder, {-110.0, -150.0}, {10.0, -10.0}, 3.0, 90.0, -6, 26, 10.0, 3.0, 0.5};
 constexpr double kHardlyParted = 0.6;  // of its faces: what is joined to more is no organ of its own
 constexpr int kStepHu = 4;
 
@@ -41,11 +47,16 @@ class Finder {
     std::sort(by_level_.begin(), by_level_.end());
   }
 
+  std::vector<Part> all(const OrganLaw& law) const {
+    std::vector<Part> made;
+    for (int level = law.least_hu; level <= law.most_hu; level += kStepHu)
+      for (Part& one : pieces(law, level)) made.push_back(std::move(one));
+    return made;
+  }
   std::optional<Part> find(const OrganLaw& law) const {
     std::optional<Part> best;
-    for (int level = law.least_hu; level <= law.most_hu; level += kStepHu)
-      for (Part& one : pieces(law, level))
-        if (!best || one.found.confidence > best->found.confidence) best = std::move(one);
+    for (Part& one : all(law))
+      if (!best || one.found.confidence > best->found.confidence) best = std::move(one);
     return best;
   }
 
@@ -166,12 +177,23 @@ std::vector<Part> find_solid_organs(const OrganGrid& grid, const std::vector<glm
   const Finder finder(grid, middle_mm);
   std::array<std::optional<Part>, kLaws.size()> found;
   for (std::size_t which = 0; which < kLaws.size(); ++which) found[which] = finder.find(kLaws[which]);
-  if (!are_a_pair(found[0], found[1]))
-    for (std::size_t which : {0, 1})
-      if (found[which]) found[which]->found.confidence /= 2.0;
+  if (!are_a_pair(found[kRightKidney], found[kLeftKidney]))
+    for (const std::size_t which : {kRightKidney, kLeftKidney})
+      if (found[which]) found[which]->found.confidence *= kDoubted;
+  const auto named = [&](std::size_t which) {
+    return found[which] && found[which]->found.confidence >= kOrganConfidence ? &*found[which] : nullptr;
+  };
+  std::optional<Part> gallbladder;
+  if (const Part* liver = named(kLiver)) {
+    std::vector<const Part*> kidneys;
+    for (const std::size_t which : {kRightKidney, kLeftKidney})
+      if (const Part* kidney = named(which)) kidneys.push_back(kidney);
+    gallbladder = gallbladder_among(grid, finder.all(kGallbladder), *liver, kidneys);
+  }
   std::vector<Part> made;
   for (auto& one : found)
     if (one) made.push_back(std::move(*one));
+  if (gallbladder) made.push_back(std::move(*gallbladder));
   return made;
 }
 

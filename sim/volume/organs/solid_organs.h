@@ -1,4 +1,4 @@
-// Liver, spleen, kidneys and bladder: even pieces of one level. Inside sim/volume/organs only.
+// Liver, spleen, kidneys, gallbladder and bladder: even pieces of one level. Inside sim/volume/organs only.
 #pragma once
 
 #include <glm/vec2.hpp>

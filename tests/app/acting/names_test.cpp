@@ -18,7 +18,8 @@ TEST(Names, AreIdsTitlesOrTheirOnlyBeginning) {
   EXPECT_EQ(id("01a2-b1"), "01a2-b1");
   EXPECT_EQ(id("01a2-b"), "01a2-b1");
   EXPECT_EQ(id("77f0"), "77f0-00");
-  EXPECT_EQ(id("77f"), "") << "a slip of the finger names nothing";
+  EXPECT_EQ(id("7"), "77f0-00") << "however short";
+  EXPECT_EQ(id("0"), "ambiguous");
   EXPECT_EQ(id("liver"), "01a2-b1") << "the whole title is before what only begins so";
   EXPECT_EQ(id("Liver, b"), "01a2-c7");
   EXPECT_EQ(id("live"), "ambiguous");

@@ -28,8 +28,8 @@ TEST(TissueText, OrgansAreNamedDoubtedOrNotLookedFor) {
             "organs   spleen (301 ml, 99 % sure)\n"
             "not found, or not sure enough to name: liver, right kidney, left kidney, right lung, left lung, "
             "vertebrae, ribs, "
-            "aorta, vena cava, bladder\n"
-            "not looked for: heart, gallbladder, stomach, bowel, pancreas and whatever else is not listed\n");
+            "aorta, vena cava, bladder, gallbladder\n"
+            "not looked for: heart, stomach, bowel, pancreas and whatever else is not listed\n");
   EXPECT_TRUE(organs_text({}).starts_with("organs   none is sure enough to be named\n"));
 }
 

@@ -1,6 +1,7 @@
 // Cohorts, facts and consent: what comes back, what is refused, and what people are to each other by them.
 #include "casedb/people/cohorts.h"
 
+#include "assessment/population/person.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/sqlite.h"
@@ -9,6 +10,8 @@
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
+#include "casedb/people/simulated_people.h"
+#include "casedb/people/told_cells.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::casedb {
@@ -76,6 +79,27 @@ TEST_F(CohortsTest, WhatBeganOrEndedWhileTheClockWasAheadCounts) {
   EXPECT_EQ(list_enrolments(library_, cohort_).size(), 2U);
   set_all("to_us");
   EXPECT_EQ(counts(), std::vector<bool>(5, false));
+}
+
+// Was: 13 learners, of whom 12 were none; and who does not see them was told of five among whom one person hid.
+TEST_F(CohortsTest, SimulatedLearnersAreCountedApart) {
+  ASSERT_TRUE(enrol(library_, cohort_, tina_, Post::learner));
+  std::string last;
+  for (std::uint64_t number = 1; number <= 12; ++number) {
+    const auto group = *assessment::population::named_group("novice");
+    last = simulated_person(library_, assessment::population::drawn_person(group, 1, number), 1);
+    ASSERT_TRUE(enrol(library_, cohort_, last, Post::learner));
+  }
+  for (const std::vector<Cohort>& cohorts : {list_cohorts(library_), list_members(library_)}) {
+    EXPECT_EQ(cells_of(cohorts.at(0)).learners, 1);
+    EXPECT_EQ(cells_of(cohorts.at(0)).simulated, 12);
+  }
+  const std::vector<CohortPast> pasts = list_cohort_pasts(library_);
+  ASSERT_EQ(pasts.at(0).deeds.size(), 1U);
+  EXPECT_EQ(pasts.at(0).deeds[0].person_id, tina_);
+  ASSERT_TRUE(end_enrolment(library_, cohort_, last));
+  EXPECT_EQ(cells_of(list_cohorts(library_).at(0)).simulated, 11);
+  EXPECT_EQ(list_cohort_pasts(library_).at(0).deeds.size(), 1U) << "one who left is no deed of anybody's, either";
 }
 
 TEST_F(CohortsTest, ADirectorHasTheLearnersOfTheProgramme) {

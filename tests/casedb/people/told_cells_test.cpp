@@ -122,7 +122,8 @@ struct Attack {
   }
   // What is told of it, or follows from what is told at the same time, and of which week; −1: neither.
   static std::pair<int, std::int64_t> value(const ToldCells& told, unsigned count) {
-    const auto& [learners, attempts, with_hit, hits] = told.cells;
+    const auto& [learners, attempts, with_hit, hits, simulated] = told.cells;
+    EXPECT_EQ(simulated, 0) << "of people alone";
     if (count == 0) return {learners, told.learners_us};
     if (count == 7) return {attempts, told.attempts_us};
     const bool both = hits >= 0 && told.hits_us == told.attempts_us;

@@ -135,6 +135,9 @@ TEST_F(StudiesTest, SimulatedPeopleTakePartInStudiesOfSimulatedPeopleAlone) {
   EXPECT_EQ(blinded_counts(library_, plan).consenting, 1U);
   EXPECT_EQ(study_data(library_, plan).flow.consenting, 1U);
   EXPECT_TRUE(people_asked(library_, *find_plan(library_, study_id_)).contains(real));
+  EXPECT_EQ(find_study(library_, other)->consenting, 1) << "to research with the library";
+  EXPECT_EQ(find_study(library_, other)->simulated, 1);
+  EXPECT_EQ(find_study(library_, study_id_)->simulated, 0);
   const auto enrolled = enrol_in_study(library_, other, simulated);
   ASSERT_TRUE(enrolled) << enrolled.error().text;
   EXPECT_EQ(enrolled->pseudonym.substr(0, 2), "S-");

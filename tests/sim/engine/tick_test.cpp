@@ -287,12 +287,13 @@ TEST(Tick, ACoreNeedlesIntroducerIsTakenUpAndStays) {
 // Drawn out of its introducer, the needle finds it again in the same hole; in beside it, it has left it.
 TEST(Tick, AnIntroducerIsLeftForAnotherHole) {
   const std::vector<cases::Event> said = {{0.0, cases::EventKind::stylet_in}, {1.9, cases::EventKind::stylet_out}};
-  constexpr std::uint64_t kOut = 4000, kInAgain = 6000;
+  constexpr std::uint64_t kStands = 1950, kOut = 4000, kInAgain = 6000;
   for (const double aside_mm : {0.0, 15.0}) {
     cases::Case scene = ball(cases::Modality::xray, Tissue::still);
     scene.instrument.kind = cases::InstrumentKind::core;
     const Tick tick(scene);
     TickState now;
+    std::optional<StandingTube> stands;
     for (std::uint64_t i = 0; i < kInAgain; ++i) {
       cases::Inputs inputs = hands_at(i);
       inputs.fire = false;
@@ -300,11 +301,23 @@ TEST(Tick, AnIntroducerIsLeftForAnotherHole) {
       inputs.needle.axis = {0.0, 1.0, 0.0};
       Scenario(said).add_to(inputs, now.state.t_s, now.happened);
       tick.advance_hands(inputs, {}, now);
+      if (i == kStands) {
+        stands = moment_of(now).tube;
+        ASSERT_TRUE(stands.has_value());
+        const double in_mm = glm::distance(stands->end_lps_mm, stands->entry_lps_mm);
+        EXPECT_GT(in_mm, 5.0);
+        EXPECT_NEAR(in_mm, now.hands[1].needle.track.sheath_mm, 1e-9);
+      }
       if (i == kOut) {
         ASSERT_FALSE(now.state.needle.skin.in_body);
         ASSERT_EQ(now.introducer, haptics::Introducer::open);
+        const auto left = moment_of(now).tube;
+        ASSERT_TRUE(left.has_value()) << "it stays when the needle is out";
+        EXPECT_EQ(left->end_lps_mm, stands->end_lps_mm);
+        EXPECT_EQ(left->entry_lps_mm, stands->entry_lps_mm);
       }
     }
+    EXPECT_EQ(moment_of(now).tube.has_value(), aside_mm == 0.0);
     ASSERT_TRUE(now.state.needle.skin.in_body);
     EXPECT_EQ(now.introducer, aside_mm > 0.0 ? haptics::Introducer::none : haptics::Introducer::open) << aside_mm;
   }

@@ -13,6 +13,7 @@
 
 #include "sim/base/rng.h"
 #include "sim/tissue/displacement.h"
+#include "sim/tissue/rest_plane.h"
 #include "sim/volume/phantom.h"
 #include "sim/volume/tissue/find_tissue.h"
 
@@ -168,6 +169,40 @@ TEST(CavityWall, FoldsNothingAndIsFoundAgain) {
       EXPECT_LT(std::sqrt(squares / kPlaces), depth > 1.0 ? 0.05 : 0.001) << depth;
       EXPECT_LT(most_mm, depth > 1.0 ? 2.0 : 0.05) << depth;
     }
+  }
+}
+
+// A picture's grid, through the wall at its steepest: a child's, whose deepest breath is an adult's.
+TEST(CavityWall, APictureFindsWhatHasMovedFar) {
+  const cases::Case scene = patient(volume::Body::child, true);
+  const BreathRegion region = breath_region(scene).value();
+  const CavityWall wall = cavity_wall(scene).value();
+  const glm::dvec3 low(scene.skin.vertices_lps_mm[0]), size = glm::dvec3(scene.skin.vertices_lps_mm[1]) - low;
+  for (const double depth : {1.0, 3.0}) {
+    const Displacement d = displacement_of({.breath = Breath{region, breath_mm(depth), &wall}});
+    EXPECT_EQ(picture_steps(d).newton, depth > 1.0 ? 4 : 1);
+    double squares = 0.0, most_mm = 0.0;
+    int n = 0;
+    for (const bool coronal : {true, false})
+      for (const double at : {0.3, 0.5, 0.7}) {
+        PlanePart part{.first_lps_mm = low, .v = {0.0, 0.0, 1.0}, .size_mm = {size.x, size.z}};
+        if (!coronal) {
+          part.u = {0.0, 1.0, 0.0};
+          part.size_mm.x = size.y;
+        }
+        part.first_lps_mm[coronal ? 1 : 0] += at * size[coronal ? 1 : 0];
+        const RestPlane plane(d, part);
+        for (double a = 0.7; a < part.size_mm.x; a += 1.9)
+          for (double b = 0.7; b < part.size_mm.y; b += 1.9, ++n) {
+            const glm::dvec3 here = part.first_lps_mm + a * part.u + b * part.v, exact = rest_of(d, here, {4, 12});
+            ASSERT_LT(glm::length(displaced(d, exact) - here), 0.01);
+            const double miss_mm = glm::length(plane.rest_of(a, b) - exact);
+            squares += miss_mm * miss_mm;
+            most_mm = std::max(most_mm, miss_mm);
+          }
+      }
+    EXPECT_LT(std::sqrt(squares / n), 0.08) << depth;
+    EXPECT_LT(most_mm, 0.6) << depth << ": with one of Newton's steps 1.8 of the deep one";
   }
 }
 

@@ -10,10 +10,13 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "shaders/shared/displacement.glsl.h"
 #include "sim/base/rng.h"
 #include "sim/haptics/needle/needle_law.h"
+#include "sim/tissue/cavity_wall.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/sim/tissue/moved_by.h"
 
@@ -310,6 +313,32 @@ TEST(Causes, TogetherComeBackFromWhereTheyWent) {
     squares += miss_mm * miss_mm;
   }
   EXPECT_LT(std::sqrt(squares / kPlaces), 0.15);
+}
+
+// Many places side by side, a few beyond the last whole group, with every kind of source and with organs that
+// slide.
+TEST(Causes, ManyPlacesComeBackByTheBitsOfEach) {
+  std::array<SkinPress, 2> presses;
+  std::array<SqueezedVein, 11> veins;
+  const Causes causes = everything(presses, veins);
+  CavityWall wall;
+  wall.axis_lps_mm = {0.0, 0.0, -230.0};
+  wall.step_mm = 12.0;
+  for (std::size_t i = 0; i < wall.radius_mm.size(); ++i) wall.radius_mm[i] = 95.0F + static_cast<float>(i % 7);
+  const Breath slides{{}, {2.0, 15.0, 16.0}, &wall};
+  const std::optional<PushedOrgan> organ = PushedOrgan{{-60, 0, -60}, 50.0, {-60, -40, -60}, {0.0, 3.0, 1.0}};
+  const Displacement of[] = {displacement_of(causes), displacement_of({.needle = causes.needle, .organ = organ}),
+                             displacement_of({.presses = presses, .breath = slides}), Displacement{}};
+  base::Rng rng(8);
+  for (const Displacement& displacement : of)
+    for (const std::size_t count : {0U, 1U, 7U, 8U, 1003U}) {
+      std::vector<glm::dvec3> at(count), rest(count);
+      for (glm::dvec3& p : at)
+        p = {200.0 * rng.uniform() - 100.0, 200.0 * rng.uniform() - 110.0, -200.0 * rng.uniform()};
+      rest_of(displacement, at, 4, rest);
+      for (std::size_t i = 0; i < count; ++i)
+        ASSERT_EQ(rest[i], rest_of(displacement, at[i], {.fixed_point = 4, .newton = 0})) << i << " of " << count;
+    }
 }
 
 // One value that is copied to shaders as it stands: no padding that differs from copy to copy.

@@ -97,20 +97,30 @@ RestFan::RestFan(const UltrasoundView& view, double spacing_mm, double beside, c
   }
 }
 
-RestFan RestFan::when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOf rest_of) {
+RestFan RestFan::when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOfMany rest_of) {
   RestFan fan(view, spacing_mm, beside);
   fan.when_asked_ = std::move(rest_of);
   return fan;
 }
 
-const glm::dvec3& RestFan::node(int row, int depth) const {
-  glm::dvec3& back_mm =
-      back_mm_[static_cast<std::size_t>(row) * static_cast<std::size_t>(depths_) + static_cast<std::size_t>(depth)];
-  if (when_asked_ && std::isnan(back_mm.x)) {
-    const glm::dvec3 at = ways_[static_cast<std::size_t>(row)].at(depth / depths_per_mm_);
-    back_mm = when_asked_(at, at) - at;
-  }
-  return back_mm;
+void RestFan::find(const Nodes& nodes) const {
+  if (!when_asked_) return;
+  missing_.clear();
+  at_mm_.clear();
+  for (int row = nodes.first_row; row < nodes.end_row; ++row)
+    for (int d = nodes.first_depth; d < nodes.end_depth; ++d)
+      if (std::isnan(node(row, d).x)) {
+        missing_.push_back(index(row, d));
+        at_mm_.push_back(ways_[static_cast<std::size_t>(row)].at(d / depths_per_mm_));
+      }
+  if (missing_.empty()) return;
+  rest_mm_.resize(at_mm_.size());
+  when_asked_(at_mm_, rest_mm_);
+  for (std::size_t i = 0; i < missing_.size(); ++i) back_mm_[missing_[i]] = rest_mm_[i] - at_mm_[i];
+}
+
+void RestFan::ask(double first_beam, double last_beam, double first_mm, double last_mm) const {
+  find({between(first_beam).row, between(last_beam).row + 2, depth_above(first_mm), depth_above(last_mm) + 2});
 }
 
 RestFan::Between RestFan::between(double beam) const noexcept {
@@ -122,7 +132,8 @@ RestFan::Between RestFan::between(double beam) const noexcept {
 glm::dvec3 RestFan::rest_of(const Fan::Way& way, double beam, double depth_mm) const {
   const Between rows = between(beam);
   const double at = depth_mm * depths_per_mm_;
-  const int d = at > 0.0 ? static_cast<int>(std::min(at, depths_ - 2.0)) : 0;
+  const int d = depth_above(depth_mm);
+  find({rows.row, rows.row + 2, d, d + 2});
   const auto across = [&](int depth) {
     const glm::dvec3& low = node(rows.row, depth);
     return low + rows.part * (node(rows.row + 1, depth) - low);
@@ -133,6 +144,7 @@ glm::dvec3 RestFan::rest_of(const Fan::Way& way, double beam, double depth_mm) c
 
 std::vector<glm::dvec3> RestFan::back_of(double beam, int depths) const {
   const Between rows = between(beam);
+  find({rows.row, rows.row + 2, 0, depths});
   std::vector<glm::dvec3> back_mm(static_cast<std::size_t>(depths));
   for (int d = 0; d < depths; ++d) {
     const glm::dvec3& low = node(rows.row, d);
@@ -141,13 +153,12 @@ std::vector<glm::dvec3> RestFan::back_of(double beam, int depths) const {
   return back_mm;
 }
 
-BeamPath RestFan::path(double beam, int depths) const {
-  const Fan::Way way = fan_.way(beam);
+BeamPath RestFan::path(const Fan::Way& way, double beam, int depths) const {
   return {way.start_lps_mm, way.direction, back_of(beam, depths), {}, depths_per_mm_};
 }
-BeamPath RestFan::path_down_to(double beam, double depth_mm) const {
+BeamPath RestFan::path_down_to(const Fan::Way& way, double beam, double depth_mm) const {
   const double at = std::clamp(depth_mm * depths_per_mm_, 0.0, depths_ - 2.0);
-  return path(beam, static_cast<int>(at) + 2);
+  return path(way, beam, static_cast<int>(at) + 2);
 }
 
 glm::dvec3 BeamPath::as_met(double depth_mm, const glm::dvec3& normal) const noexcept {

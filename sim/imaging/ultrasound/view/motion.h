@@ -3,8 +3,10 @@
 // still patient has none of it (docs/decisions/0025).
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/imaging/ultrasound/view/fan.h"
@@ -67,14 +69,17 @@ class RestFan {
   // rest_of(x, guess) → X. `beside`: beams beyond the first and the last that are asked for, too.
   using RestOf = std::function<glm::dvec3(const glm::dvec3& at_lps_mm, const glm::dvec3& guess_lps_mm)>;
   RestFan(const UltrasoundView& view, double spacing_mm, double beside, const RestOf& rest_of);
-  // For a few beams of it: each node is found when it is first asked for, from where it is as a guess. One
+  // For a few beams of it: nodes are found when they are first asked for, those of one question together. One
   // thread's; without back_mm().
-  static RestFan when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOf rest_of);
+  using RestOfMany = std::function<void(std::span<const glm::dvec3> at_lps_mm, std::span<glm::dvec3> rest_lps_mm)>;
+  static RestFan when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOfMany rest_of);
+  // Asks for all that rest_of() will be asked for between two beams and two depths.
+  void ask(double first_beam, double last_beam, double first_mm, double last_mm) const;
 
   glm::dvec3 rest_of(double beam, double depth_mm) const { return rest_of(fan_.way(beam), beam, depth_mm); }
-  glm::dvec3 rest_of(const Fan::Way& way, double beam, double depth_mm) const;  // that beam's
-  BeamPath path(double beam) const { return path(beam, depths_); }              // without Asides
-  BeamPath path_down_to(double beam, double depth_mm) const;                    // not to be asked below that
+  glm::dvec3 rest_of(const Fan::Way& way, double beam, double depth_mm) const;      // that beam's
+  BeamPath path(double beam) const { return path(fan_.way(beam), beam, depths_); }  // without Asides
+  BeamPath path_down_to(const Fan::Way& way, double beam, double depth_mm) const;   // not to be asked below that
   std::vector<glm::dvec3> back_of(double beam) const { return back_of(beam, depths_); }
   glm::dvec3 start_lps_mm(double beam) const noexcept { return fan_.start_lps_mm(beam); }
   glm::dvec3 direction(double beam) const noexcept { return fan_.direction(beam); }
@@ -95,16 +100,29 @@ class RestFan {
 
  private:
   RestFan(const UltrasoundView& view, double spacing_mm, double beside);
-  const glm::dvec3& node(int row, int depth) const;
-  BeamPath path(double beam, int depths) const;
+  struct Nodes {
+    int first_row, end_row, first_depth, end_depth;
+  };
+  void find(const Nodes& nodes) const;
+  const glm::dvec3& node(int row, int depth) const noexcept { return back_mm_[index(row, depth)]; }
+  std::size_t index(int row, int depth) const noexcept {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(depths_) + static_cast<std::size_t>(depth);
+  }
+  int depth_above(double depth_mm) const noexcept {
+    const double at = depth_mm * depths_per_mm_;
+    return at > 0.0 ? static_cast<int>(std::min(at, depths_ - 2.0)) : 0;
+  }
+  BeamPath path(const Fan::Way& way, double beam, int depths) const;
   std::vector<glm::dvec3> back_of(double beam, int depths) const;
 
   Fan fan_;
   int rows_, depths_;  // nodes
   double first_beam_, rows_per_beam_, depths_per_mm_;
   std::vector<Fan::Way> ways_;               // of the rows
-  RestOf when_asked_;                        // none: all nodes are there
+  RestOfMany when_asked_;                    // none: all nodes are there
   mutable std::vector<glm::dvec3> back_mm_;  // NaN: not asked for yet
+  mutable std::vector<std::size_t> missing_;
+  mutable std::vector<glm::dvec3> at_mm_, rest_mm_;  // of the missing
 };
 
 class PictureMotion {

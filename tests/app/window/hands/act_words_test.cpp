@@ -37,6 +37,15 @@ TEST(ActWords, APlanWithoutADepthIsNotedOnlyWhereNoneCanBeSet) {
   EXPECT_FALSE(depth_is_missing(EventKind::aspirate, 0.0, cases::Modality::ultrasound));
 }
 
+TEST(ActWords, OfAPhantomTellThatItIsNobodyAndHasNoSkin) {
+  for (const EventKind both : {EventKind::probe_checked, EventKind::note_plan})
+    EXPECT_TRUE(phantom_words(both).empty());
+  EXPECT_NE(phantom_words(EventKind::nick).find("no skin"), std::string::npos);
+  for (const EventKind kind : {EventKind::aspirate, EventKind::anaesthetic, EventKind::stylet_in,
+                               EventKind::stylet_out, EventKind::inject, EventKind::breath_hold_request})
+    EXPECT_FALSE(phantom_words(kind).empty());
+}
+
 TEST(ActWords, OfACoreNeedlesStyletAreOfItsIntroducer) {
   using haptics::Introducer;
   const auto words = [](EventKind kind, bool needle_in, Introducer before) {

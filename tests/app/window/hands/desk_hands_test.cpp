@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <bitset>
 #include <glm/geometric.hpp>
 
 #include "app/device_simulation/haply_simulation.h"
@@ -124,6 +126,79 @@ TEST(DeskHands, WithTheHandAwayTheNeedleStaysAndIsTakenUpWhereItIs) {
     for (int i = 0; i < 100; ++i) tick(0.03, false);
     EXPECT_NEAR(glm::length(inputs.needle.position_lps_mm - back), 3.0, 0.2) << "it is led again";
   }
+}
+
+// An arm's: it goes where it likes meanwhile and feels nothing; back, it holds the needle where that was left.
+TEST(DeskHands, AnArmThatWasAwayTakesTheNeedleUpWhereItIs) {
+  const auto torso = torso_under_hands(0.9);
+  ASSERT_TRUE(torso);
+  cases::Case scene = torso->scene;
+  scene.planned_entry_lps_mm = torso->plan.entry_lps_mm;
+  scene.picture.modality = cases::Modality::xray;
+  const glm::dmat3 down({1, 0, 0}, {0, 0, -1}, {0, 1, 0});  // the stylus' z is the device's y: up
+  std::atomic<double> above_mm = 60.0;
+  std::atomic<bool> fires = false;
+  std::array<SimulatedArm, 2> arms = circling_arms();
+  arms[1].at_mm = [&](double) { return glm::dvec3(0.0, devices::kEntryAboveMm + above_mm.load(), 0.0); };
+  arms[1].held = [&](double) { return down; };
+  arms[1].buttons = [&](double) { return std::bitset<8>(fires.load() ? 1 : 0); };
+  Arms there;
+  there.place.port = 0;
+  const auto service = HaplySimulation::start(there.place, arms);
+  ASSERT_TRUE(service);
+  there.place.port = (*service)->port();
+
+  const glm::dvec3 up = cases::upwards(scene.position), above = torso->plan.entry_lps_mm + 60.0 * up;
+  devices::HandsSettings settings;
+  settings.has_probe = settings.has_guide = false;
+  DeskHands hands(scene, {{above, -up, {0, 0, 1}}, {above, -up, {0, 0, 1}}}, settings, haptics::Handedness::right,
+                  &there);
+  const engine::Tick whole(scene);
+  engine::TickState now;
+  cases::Inputs inputs;
+  const auto tick = [&](bool away) {
+    inputs = {};
+    inputs.fluoroscope.hand_away = away;
+    hands.advance({}, now.state, {}, kTickS, inputs);
+    whole.advance_hands(inputs, hands.read(), now);
+    hands.feel(whole, now, kTickS);
+    fixtures::let_pass(kTickS);  // the service's arms move in real time
+  };
+  const auto tip = [&] { return now.state.needle.tip_lps_mm; };
+  const auto until = [&](bool away, const auto& holds) {
+    for (int i = 0; i < 20000 && !holds(); ++i) tick(away);
+    return holds();
+  };
+  // In by some 15 mm, the hand at rest.
+  ASSERT_TRUE(until(false, [&] { return !hands.arms().lost[1] && !hands.mouse_leads(haptics::Tool::needle); }));
+  above_mm = -15.0;
+  ASSERT_TRUE(until(false, [&] { return now.state.needle.inserted_mm > 8.0; })) << now.state.needle.inserted_mm;
+  for (int i = 0; i < 300; ++i) tick(false);
+
+  tick(true);
+  const glm::dvec3 left = tip(), told = inputs.needle.position_lps_mm;
+  above_mm = 45.0;
+  fires = true;
+  for (int i = 0; i < 600; ++i) {
+    tick(true);
+    ASSERT_EQ(inputs.needle.position_lps_mm, told);
+    ASSERT_EQ(tip(), left);
+    ASSERT_FALSE(inputs.fire) << "nobody holds it";
+  }
+  ASSERT_TRUE(until(true, [&] { return (*service)->arm(1).at_mm.y > devices::kEntryAboveMm + 35.0; }));
+  EXPECT_LT(glm::length((*service)->arm(1).asked_n), 0.05) << "what stands in the patient holds nobody's hand";
+  fires = false;
+  for (int i = 0; i < 50; ++i) tick(true);
+  ASSERT_FALSE(hands.arms().lost[1]);
+  // Back from 60 mm away.
+  for (int i = 0; i < 20; ++i) {
+    tick(false);
+    ASSERT_LT(glm::distance(tip(), left), 3.0) << "no leap, tick " << i;
+  }
+  // And led again, from here.
+  const glm::dvec3 back = tip();
+  above_mm = 55.0;
+  EXPECT_TRUE(until(false, [&] { return glm::dot(tip() - back, up) > 5.0; })) << glm::dot(tip() - back, up);
 }
 
 // What comes and goes from tick to tick is one notice, and is over a second after the last of it.

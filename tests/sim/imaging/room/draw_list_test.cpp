@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "sim/imaging/room/scan_border.h"
 #include "sim/imaging/ultrasound/view/probe.h"
@@ -79,6 +80,29 @@ TEST(DrawList, ANickIsASlitInTheSkinAcrossTheBody) {
   EXPECT_LT(half_mm({0.0, 1.0, 0.0}), 1.0);
   EXPECT_LT(half_mm({0.0, 0.0, 1.0}), 0.5);
   EXPECT_FALSE(nick->over_all) << "a thing in the room, not a mark over it";
+}
+
+TEST(DrawList, AnIntroducerStandsWhereItIsWhereverTheNeedleIs) {
+  const cases::Case scene = ball_case();
+  cases::State state = ball_state();
+  EXPECT_EQ(find(list_of(scene, state), RoomPart::introducer), nullptr);
+  const glm::dvec3 end(3.0, -30.0, 7.0), axis = glm::normalize(glm::dvec3(0.2, 1.0, 0.1));
+  RoomOptions options;
+  options.introducer = RoomIntroducer{end, axis};
+  state.needle.tip_lps_mm = {0.0, -200.0, 0.0};  // drawn out of it
+  const DrawList list = list_of(scene, state, options);
+  std::vector<RoomItem> its;
+  for (const RoomItem& item : list.items)
+    if (item.part == RoomPart::introducer) its.push_back(item);
+  ASSERT_EQ(its.size(), 2U) << "tube and hub";
+  const glm::dvec3 outer = placed(its[0], {0.0, 0.0, 0.0});
+  EXPECT_LT(glm::distance(placed(its[0], {0.0, 0.0, 1.0}), end), 1e-9);
+  EXPECT_LT(glm::length(glm::cross(end - outer, axis)), 1e-9);
+  EXPECT_NEAR(glm::distance(end, outer), scene.instrument.length_mm - 30.0, 1e-9);
+  EXPECT_NEAR(glm::distance(placed(its[0], {1.0, 0.0, 0.0}), outer), scene.instrument.radius_mm + 0.1, 1e-9)
+      << "the needle goes through it";
+  EXPECT_LT(glm::distance(placed(its[1], {0.0, 0.0, 0.0}), outer), 1e-9);
+  EXPECT_FALSE(its[0].over_all) << "a thing in the room, not a mark over it";
 }
 
 TEST(DrawList, HelpGrowsByLevels) {

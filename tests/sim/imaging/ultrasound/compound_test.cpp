@@ -2,6 +2,12 @@
 // and what is told of a compounded picture.
 #include "sim/imaging/ultrasound/compound.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "sim/base/rng.h"
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
@@ -212,6 +218,47 @@ TEST(CompoundTruth, ANeedleHasTheMeanOfItsLooks) {
   EXPECT_NEAR(seen.visible.needle_length_mm,
               ultrasound_visible(liver_to_compound().tissue(), one, inserted, {}).visible.needle_length_mm,
               kShaftStepMm);
+}
+
+// What is told of a needle walks down no more beams than it needs: the answer is that of all looks, place by place,
+// in tissue of every level, beside bone, by every law, of tissue that lies still and that moves.
+TEST(CompoundTruth, IsToldByAFewLooksAsByAll) {
+  const Scene s = scene([](const glm::dvec3& p) {
+    if (std::abs(p.x + 12.0) < 2.0 && p.y > 8.0 && p.y < 12.0) return TissueClass::bone;
+    if (glm::length(p - glm::dvec3(8, 20, 0)) < 7.0) return TissueClass::fluid;
+    return p.y < 6.0 + 0.2 * p.x ? TissueClass::fat : TissueClass::liver;
+  });
+  const std::array<tissue::SkinPress, 1> press{
+      {{.at_lps_mm = {0, 0, 0}, .inward = {0, 1, 0}, .radius_mm = 20.0, .depth_mm = 5.0}}};
+  const tissue::Displacement still{}, pressed = tissue::displacement_of({.presses = press});
+  base::Rng rng(22);
+  int seen = 0, hidden = 0;
+  for (int i = 0; i < 300; ++i) {
+    UltrasoundView view = compounded(i % 2 == 0 ? straight_view(40.0) : curved_view(60.0));
+    view.sight_law = static_cast<cases::SightLaw>(i % static_cast<int>(cases::kSightLawNames.size()));
+    std::vector<float> below(128, 0.0F);
+    if (i % 5 == 0) std::fill(below.begin() + 70, below.end(), -3.0F);
+    const double tilt = 1.3 * rng.uniform();
+    Inserted inserted;
+    inserted.needle = NeedlePose{};
+    inserted.needle->tip_lps_mm = {30.0 * rng.uniform() - 10.0, 8.0 + 30.0 * rng.uniform(), 2.0 * rng.uniform()};
+    inserted.needle->direction = {std::cos(tilt), std::sin(tilt), 0.0};
+    inserted.needle->length_mm = 20.0;
+    const tissue::Displacement& displacement = i % 3 == 0 ? pressed : still;
+    double told_mm = 0.0;
+    for (double behind_mm = 1.0; behind_mm < 20.0; behind_mm += kShaftStepMm) {
+      const bool shows = needle_level(s.tissue(), view, inserted, below, behind_mm, displacement).stands_out();
+      told_mm += shows ? kShaftStepMm : 0.0;
+      ++(shows ? seen : hidden);
+    }
+    const UltrasoundVisible told = ultrasound_visible(s.tissue(), view, inserted, below, displacement);
+    EXPECT_NEAR(told.visible.needle_length_mm, told_mm, 1e-9) << i;
+    const NeedleLevel tip = needle_level(s.tissue(), view, inserted, below, 0.0, displacement);
+    const bool by_echo = view.sight_law != cases::SightLaw::half_slice;  // by that one within the slice, too
+    EXPECT_EQ(by_echo && told.visible.needle_tip, by_echo && tip.stands_out()) << i;
+  }
+  EXPECT_GT(seen, 300);
+  EXPECT_GT(hidden, 300);
 }
 
 }  // namespace

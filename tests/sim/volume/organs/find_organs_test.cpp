@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
+#include "sim/base/rng.h"
 #include "sim/volume/organs/organ_classes.h"
 #include "tests/sim/volume/tissue/enhanced_torso.h"
 
@@ -24,6 +28,7 @@ FoundOrgan organ_of(const std::string& label, double x_lps_mm) {
   if (label == "liver") return FoundOrgan::liver;
   if (label == "spleen") return FoundOrgan::spleen;
   if (label == "bladder") return FoundOrgan::bladder;
+  if (label == "gallbladder") return FoundOrgan::gallbladder;
   if (label == "aorta") return FoundOrgan::aorta;
   if (label == "vena_cava") return FoundOrgan::vena_cava;
   if (label == "spine" || label == "sacrum") return FoundOrgan::vertebrae;
@@ -223,6 +228,37 @@ TEST(Organs, TheBladderIsTheGroinsAndNoOthers) {
     const Organs organs = find_organs(made.volume, tissue_classes(made.volume));
     EXPECT_EQ(named(organs)[static_cast<std::size_t>(FoundOrgan::bladder)], region == Region::groin);
   }
+}
+
+// Of a torso whose gallbladder is left away, or not, and that has more.
+bool names_a_gallbladder(EnhancedTorso torso, bool keep, const std::vector<Shape>& more) {
+  constexpr double kLiverHu = 85.0, kNoiseSdHu = 12.0;
+  Volume& ct = torso.volume;
+  for (std::size_t at = 0; at < ct.hu.size(); ++at) {
+    const auto paint = [&](double hu) {
+      ct.hu[at] = static_cast<std::int16_t>(std::lround(hu + kNoiseSdHu * base::normal_at(11, at)));
+    };
+    if (!keep && torso.truth.names[torso.truth.label[at]] == "gallbladder") paint(kLiverHu);
+    const auto n = glm::uvec3(ct.size_voxels);
+    const glm::dvec3 voxel(at % n.x, at / n.x % n.y, at / (std::size_t{n.x} * n.y));
+    for (const Shape& one : more)
+      if (contains(one.geometry, glm::dvec3(ct.lps_from_voxel * glm::dvec4(voxel, 1.0)))) paint(one.hu);
+  }
+  const Organs organs = find_organs(ct, tissue_classes(ct));
+  EXPECT_TRUE(named(organs)[static_cast<std::size_t>(FoundOrgan::liver)]) << "else nothing is shown";
+  return named(organs)[static_cast<std::size_t>(FoundOrgan::gallbladder)];
+}
+
+TEST(Organs, TheGallbladderIsNoCystAndNoGut) {
+  const EnhancedTorso torso = enhanced_torso({.phase = TorsoPhase::excretory, .spacing_mm = glm::ivec3(3)});
+  const Shape cyst{Sphere{{-85.0, -5.0, 50.0}, 18.0}, 8.0, "cyst"},
+      gut{Sphere{{-46.0, -10.0, -4.0}, 12.0}, 8.0, "gut"}, gas{Sphere{{-46.0, -18.0, -4.0}, 7.0}, -1000.0, "gut"};
+  EXPECT_TRUE(names_a_gallbladder(torso, true, {}));
+  EXPECT_TRUE(names_a_gallbladder(torso, true, {cyst}));
+  EXPECT_FALSE(names_a_gallbladder(torso, false, {}));
+  EXPECT_FALSE(names_a_gallbladder(torso, false, {cyst})) << "liver lies all around it";
+  EXPECT_FALSE(names_a_gallbladder(torso, false, {gut, gas})) << "it holds gas";
+  EXPECT_FALSE(names_a_gallbladder(torso, true, {gut})) << "neither is told from the other";
 }
 
 TEST(Organs, OfAirThereAreNone) {

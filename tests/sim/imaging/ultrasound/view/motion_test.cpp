@@ -255,27 +255,35 @@ TEST(UltrasoundMotion, AFanThatIsAskedHasTheBitsOfAWholeOne) {
   const auto displacement = pressed(8.0);
   for (const UltrasoundView& view : {curved_view(110.0), straight_view(45.0)}) {
     int asked = 0, all = 0;
-    const auto counted = [&](int& count) {
-      return [&count, &displacement](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
-        ++count;
-        return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
-      };
-    };
-    const RestFan whole(view, 5.0, 0.0, counted(all));
-    const RestFan fan = RestFan::when_asked(view, 5.0, 0.0, counted(asked));
+    const RestFan whole(view, 5.0, 0.0, [&](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
+      ++all;
+      return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
+    });
+    const RestFan fan = RestFan::when_asked(
+        view, 5.0, 0.0, [&](std::span<const glm::dvec3> at_lps_mm, std::span<glm::dvec3> rest_lps_mm) {
+          asked += static_cast<int>(at_lps_mm.size());
+          tissue::rest_of(displacement, at_lps_mm, 4, rest_lps_mm);
+        });
     EXPECT_EQ(asked, 0);
     for (const double beam : {-0.4, 31.0, 33.7, view.beams - 0.6})
       for (const double depth_mm : {0.0, 2.9, 0.31 * view.depth_mm, view.depth_mm}) {
         EXPECT_EQ(fan.rest_of(beam, depth_mm), whole.rest_of(beam, depth_mm));
-        const BeamPath down = fan.path_down_to(beam, depth_mm), path = whole.path(beam);
+        const BeamPath down = fan.path_down_to(fan_of(view).way(beam), beam, depth_mm), path = whole.path(beam);
         for (double z_mm = 0.0; z_mm <= depth_mm; z_mm += 0.37) EXPECT_EQ(down.at(z_mm), path.at(z_mm));
         EXPECT_EQ(down.at(depth_mm), path.at(depth_mm));
       }
     EXPECT_GT(asked, 0);
     EXPECT_LT(asked, all);
-    const int before = asked;
+    int before = asked;
     static_cast<void>(fan.path(31.0));
     EXPECT_EQ(asked, before) << "nothing is found twice";
+    fan.ask(50.0, 60.0, 20.0, 25.0);
+    EXPECT_GT(asked, before);
+    before = asked;
+    for (const double beam : {50.0, 57.3, 60.0})
+      for (const double depth_mm : {20.0, 23.4, 25.0})
+        EXPECT_EQ(fan.rest_of(beam, depth_mm), whole.rest_of(beam, depth_mm));
+    EXPECT_EQ(asked, before) << "all that is between was asked for";
   }
 }
 
