@@ -110,8 +110,7 @@ TEST(TableCsv, TellsEveryFault) {
              "row 3, column \"score\" holds no finite number", "row 4, column \"score\" holds no finite number",
              "row 5, column \"score\" holds no finite number", "row 6, column \"score\" holds no finite number",
              "row 7, column \"score\" holds no finite number", "row 8, column \"score\" holds no finite number"}));
-  EXPECT_EQ(faults_in("score;group\n1,5;a\n"),
-            Lines{"row 1, column \"score\" has a decimal comma: use a point"});
+  EXPECT_EQ(faults_in("score;group\n1,5;a\n"), Lines{"row 1, column \"score\" has a decimal comma: use a point"});
   EXPECT_EQ(faults_in("score,group\n1,\"a\n2,b\n"), Lines{"after row 0, a quotation mark is not closed"});
   EXPECT_EQ(faults_in("score,group\n1,a\n2,\"a\"b\n"),
             Lines{"after row 1, there is something between a closing quotation mark and the end of its cell"});

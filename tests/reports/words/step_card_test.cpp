@@ -38,7 +38,8 @@ TEST(StepCardTest, EveryStepTellsAllThereIsToAskInWords) {
     EXPECT_EQ(line_of(card, "Source"), info.source);
     EXPECT_EQ(line_of(card, "Version").find("this result"), std::string::npos);
   }
-  EXPECT_NE(line_of(step_card("nick", 2), "Version").find("this result was judged by version 2"), std::string::npos);
+  EXPECT_NE(line_of(step_card("nick", 2), "Version").find("this result was judged by version 2"),
+            std::string::npos);
 }
 
 TEST(StepCardTest, WhatIsSaidOfADeedIsToldAsNotCounting) {
