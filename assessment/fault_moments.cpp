@@ -59,7 +59,7 @@ struct Row {
   Times (*times)(const Signals&);
   const char* words;
 };
-constexpr const char *kFired = "the trigger fell", *kIn = "the needle went through the skin",
+constexpr const char *kFired = "the trigger was pressed", *kIn = "the needle went through the skin",
                      *kInside = "the tip came into a structure to stay out of",
                      *kUnseen = "the longest advance with the tip out of the picture began";
 constexpr Needs kPuncture = kSkin | kMotion, kSeenPlane = kPicturePlane | kSkin | kPictures | kMotion;

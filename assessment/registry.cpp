@@ -48,7 +48,7 @@ constexpr std::pair<Law, const char*> kLaws[] = {
     {kIdleAfter, "the same after the last action, where nothing was fired"},
     {kOneDarkFrame, "one picture that shows nothing"},
     {kLostSamples, "one pose in a hundred missing"},
-    {kNothingIsNothing, "(who does nothing has no value)"}};
+    {kNothingIsNothing, "(an attempt in which nothing is done has no value)"}};
 
 // "1 2 5": the laws that hold, by their place in the table.
 std::string laws_of(const MetricInfo& info) {
@@ -60,26 +60,22 @@ std::string laws_of(const MetricInfo& info) {
 
 std::string estimands_markdown() {
   std::string text =
-      "\n## What is estimated\n\n"
-      "One value a person (of the attempts on one task, by the column \"of a person's\"), and of those attempts "
-      "only in "
-      "which\nthe procedure was performed (`procedure_performed`). What an attempt without an endpoint says, not "
-      "fired "
-      "and not\ndeferred: nothing where the metric is left out; the worst value there is where it is a failure; "
-      "where "
-      "it is censored, a\ntime that was still running, longer than any that ended. A failure is also what was "
-      "never "
-      "reached (`never_punctured`,\n`not_in_target_structure`, `not_in_tissue_at_the_end`). Who defers without a "
-      "puncture counts in the metrics of deciding,\nsteps and pain alone, and in no other; but a deferral that "
-      "`decision_right` calls wrong is a failure or censored as giving up\nis. Where a case does not say what is "
-      "right, a deferral spares its person the failure: proportions of such a case are of those\nwho went ahead. "
-      "\"Unchanged by\" names laws of the table below.\n\n"
-      "| id | scale | better | without an endpoint | of a person's | unchanged by |\n|---|---|---|---|---|---|\n";
+      "\n## What is estimated\n\nOne value per person (from the attempts on one task, by the column \"of a "
+      "person's\"), and only from attempts in which\nthe procedure was performed (`procedure_performed`). An "
+      "attempt without an endpoint, neither fired nor deferred, counts\nas follows: not at all where the metric is "
+      "left out; as the worst value there is where it is a failure; where it is\ncensored, as a time that was "
+      "still running, longer than any that ended. What was never reached is also a failure\n(`never_punctured`, "
+      "`not_in_target_structure`, `not_in_tissue_at_the_end`). Somebody who defers without a puncture counts\nonly "
+      "in the metrics of deciding, steps and pain; but a deferral that `decision_right` calls wrong is a failure "
+      "or censored,\nlike giving up. Where a case does not say what is right, a deferral is not held against the "
+      "person: proportions of such a\ncase are of those who went ahead. \"Unchanged by\" names laws of the table "
+      "below.\n\n| id | scale | better | without an endpoint | of a person's | unchanged by "
+      "|\n|---|---|---|---|---|---|\n";
   for (const MetricInfo& info : registry())
     text += "| `" + std::string(info.id) + "` | " + std::string(words(info.estimand.scale)) + " | " +
             words(info.direction) + " | " + std::string(words(info.estimand.without_endpoint)) + " | " +
             std::string(words(info.estimand.aggregation)) + " | " + laws_of(info) + " |\n";
-  text += "\n| law | a metric that names it stays as it is under |\n|---|---|\n";
+  text += "\n| law | a metric that names it does not change under |\n|---|---|\n";
   for (std::size_t i = 0; i < std::size(kLaws); ++i)
     text += "| " + std::to_string(i + 1) + " | " + kLaws[i].second + " |\n";
   return text;
@@ -160,7 +156,7 @@ std::string metrics_markdown() {
   for (const MetricInfo& info : registry())
     text += "| `" + std::string(info.id) + "` | " + std::to_string(info.version) + " | " + info.unit + " | " +
             words(info.direction) + " | " + needs_of(info) + " | " + info.definition + " | " + info.source + " |\n";
-  text += "\nWhat a metric needs and does not find makes it null, for the first of these reasons:\n\n";
+  text += "\nA metric that lacks something it needs is null, for the first of these reasons:\n\n";
   text += "| needs | reason |\n|---|---|\n";
   for (const NeedInfo& need : needs()) text += "| " + std::string(need.words) + " | `" + need.reason + "` |\n";
   return text + estimands_markdown() + history_markdown();

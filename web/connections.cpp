@@ -58,7 +58,7 @@ Connections::Connections(int listening, Hooks hooks, const ConnectionLimits& lim
       hooks_(std::move(hooks)),
       limits_(limits),
       wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-  if (wake_ < 0) throw base::Failure("network", "no file is left for the server");
+  if (wake_ < 0) throw base::Failure("network", "the server has no file handles left");
 }
 
 Connections::~Connections() {

@@ -14,12 +14,12 @@ Made by `seldinger help --statistics > docs/statistics.md`; a test compares, and
 (`tests/e2e/stats_test.cpp`). `seldinger stats TEST` answers one question from one CSV file. The files in `docs/statistics` are made up, to try
 it on.
 
-**The file** is RFC 4180 in UTF-8: a header, then one observation a line; LF or CRLF, a byte-order mark is let pass. Semicolons or tabs separate
+**The file** is RFC 4180 in UTF-8: a header, then one observation a line; LF or CRLF; a byte-order mark is allowed. Semicolons or tabs separate
 where the header holds them and no comma. Decimals have a point. An empty cell, NA or NaN is missing: what has something missing is left out
-and counted. A file that is no such CSV, lacks a column or holds a word where a number is wanted is refused (`bad_csv`, exit 3); the message
+and counted. A file that is not such a CSV, lacks a column or holds a word where a number is wanted is refused (`bad_csv`, exit 3); the message
 names row and column and never the cell. An empty one, or one that is too small, is not estimable, with the reason, and exit 0.
 
-**The person is the unit.** Where `--subject` is given, a person who stands twice in a group, or in two groups that are to be independent, is
+**The person is the unit.** Where `--subject` is given, a person who appears twice in a group, or in two groups that should be independent, is
 refused (`repeated_subject`, `subject_in_two_groups`): aggregate first, or model it (`mixed_model`). Where it is not given, every line counts
 as another person. Tests of several conditions of the same persons take them as one column with `--group` and `--subject`, or side by side:
 `seldinger stats paired --csv docs/statistics/course.csv --value before,after`.
@@ -30,7 +30,7 @@ there are several), `p_value` (two-sided unless `method` says otherwise), `estim
 (pairs, items, points of a curve, each with `name`), then what only this test has, by its name. What is not there is null, never 0; NaN and
 infinities are never printed. Numbers have as many digits as it takes to read the same number back.
 
-**Oracle** says what the tests of `tests/assessment/statistics` hold the procedure against, and the largest difference that they let pass
+**Oracle** names what the tests of `tests/assessment/statistics` compare the procedure with, and the largest difference that they accept
 (relative, unless it says otherwise); [held](statistics-held.md) says what was seen. R is that of Debian 12.
 )";
 

@@ -112,7 +112,7 @@ class TableReader {
       bad("there is no column " + shown(name) + " among the " + std::to_string(header.size()) + " of the header");
       return 0;
     }
-    if (std::find(found + 1, header.end(), name) != header.end()) bad("column " + shown(name) + " stands twice");
+    if (std::find(found + 1, header.end(), name) != header.end()) bad("column " + shown(name) + " occurs twice");
     return static_cast<std::size_t>(found - header.begin());
   }
 

@@ -60,7 +60,7 @@ constexpr Follows kFollows[] = {
     {"hit", 1.0, "skin_punctures", Comparison::at_least, 1.0, kUnderSkin},
     {"core_in_target", kAnything, "skin_punctures", Comparison::at_least, 1.0, kUnderSkin},
     {"must_cross_length", kAnything, "skin_punctures", Comparison::at_least, 1.0,
-     "what is to be crossed lies under the skin"},
+     "what must be crossed lies under the skin"},
     {"first_pass_success", 1.0, "hit", Comparison::at_least, 1.0, kFirstPass},
     {"first_pass_success", 1.0, "skin_punctures", Comparison::at_most, 1.0, kFirstPass},
     {"first_pass_success", 1.0, "withdrawals_partial", Comparison::at_most, 0.0, kFirstPass},
@@ -134,7 +134,7 @@ std::vector<Demand> demands_of(const PassRule& rule, const Guidance& guidance) {
     if (one.comparison != Comparison::at_most) all.push_back({one.metric, true, one.value, i, ""});
     if (one.comparison != Comparison::at_least) all.push_back({one.metric, false, one.value, i, ""});
     if (needs_a_puncture(*info))
-      all.push_back({"skin_punctures", true, 1.0, i, "the one has no value until the needle is in the body"});
+      all.push_back({"skin_punctures", true, 1.0, i, "one of them has no value until the needle is in the body"});
   }
   for (std::size_t i = 0; i < all.size(); ++i)  // what follows from what follows, too: no chain leads back
     for (Demand& one : what_follows(Demand(all[i]), guidance)) all.push_back(std::move(one));
@@ -176,7 +176,7 @@ std::vector<base::Problem> contradictions_of(const PassRule& rule, const Guidanc
     const std::string why = why_never(criterion, *find_metric(criterion.metric), guidance);
     if (why.empty()) continue;
     never.insert(one.criterion);
-    problems.push_back({"never_met", named(criterion) + " is met by nobody: " + why});
+    problems.push_back({"never_met", named(criterion) + " can never be met: " + why});
   }
   std::set<std::pair<std::size_t, std::size_t>> told;
   for (const Demand& low : demands)

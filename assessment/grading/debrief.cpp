@@ -95,7 +95,7 @@ Candidate of_null(const CriterionResult& one, std::string_view topic, const Metr
       {SentenceKind::not_measured, "", one.criterion.metric}, topic, info == nullptr ? 0 : severity_of(*info)};
   const std::string label = info == nullptr ? one.criterion.metric : info->label;
   if (one.reason == kOtherVersion)
-    made.sentence.text = "“" + label + "” was measured by another version than the rule's: not comparable.";
+    made.sentence.text = "“" + label + "” was measured by a version other than the rule's: not comparable.";
   else if (one.reason == "no_endpoint")
     made.sentence.text =
         "The needle was neither fired nor declared to be on target, so the endpoint cannot be judged.";

@@ -12,8 +12,8 @@ constexpr ReasonWords kReasons[] = {
     {"not_xray", "the guidance is not fluoroscopy"},
     {"not_ultrasound", "the guidance is not ultrasound"},
     {"not_meaningful_under_xray", "the guidance is fluoroscopy, whose picture has no plane"},
-    {"not_meaningful_out_of_plane", "the needle is led out of plane"},
-    {"not_meaningful_in_plane", "the needle is led in plane"},
+    {"not_meaningful_out_of_plane", "the approach is out of plane"},
+    {"not_meaningful_in_plane", "the approach is in plane"},
     {"not_a_core_needle", "the needle is not a core needle"},
     // What the case or the desk does not have (needs.cpp).
     {"no_target", "the case has no target"},
@@ -42,7 +42,7 @@ constexpr ReasonWords kReasons[] = {
     {"events_not_recorded", "the recording does not say what was said and done"},
     {"only_gaps", "tracking was lost throughout"},
     {"never_in_tissue", "the tip was never in tissue"},
-    {"probe_given", "the case gave the probe"},
+    {"probe_given", "the case prescribes the probe"},
     {"no_such_event", "nothing went wrong that called for a response"},
     // What was done, or left undone (the metrics' own).
     {"needle_guide_was_on", "the needle was in the probe’s guide, which holds it in the picture’s plane"},
@@ -64,7 +64,7 @@ constexpr ReasonWords kReasons[] = {
     {"under_1_s_in_tissue", "the tip was in tissue for less than 1 s"},
     {"under_1_s_in_tissue_with_a_live_picture", "the tip was in tissue for less than 1 s with a live picture"},
     {"under_5_mm_from_the_skin", "the tip ended less than 5 mm from where it entered"},
-    {"too_short", "it was over before it began"},
+    {"too_short", "it was too short"},
     {"not_finite", "the calculation gave no finite number"},
     // What the library holds of it (grade.cpp).
     {"other_version",
@@ -75,8 +75,8 @@ constexpr ReasonWords kReasons[] = {
     {"not_measured", "it was not measured"},
     {"no_reason_stored", "no reason was stored with it"},
     // Why an attempt is not graded (grade.cpp).
-    {"interrupted", "the program was gone before the attempt had ended"},
-    {"device_lost", "a device was lost on the way"},
+    {"interrupted", "the program ended before the attempt did"},
+    {"device_lost", "a device was lost during the attempt"},
     {"tracking_gaps", "tracking was lost for more than 5 % of the time"},
     {"tracking_slow", "tracking was slower than 60 Hz"},
     {"tracking_jumps", "tracking jumped faster than a hand can move"},

@@ -121,10 +121,11 @@ std::vector<base::Problem> problems_of(const PassRule& rule, const Guidance& gui
     else if (!can_have_a_value(*info, guidance))
       problems.push_back({"not_meaningful", one.metric + " has no value under the case's guidance, approach and "
                                                          "instrument, or needs a structure that it does not have"});
-    if (!std::isfinite(one.value)) problems.push_back({"not_finite", one.metric + " is compared with no number"});
+    if (!std::isfinite(one.value))
+      problems.push_back({"not_finite", one.metric + " is not compared with a number"});
     for (std::size_t other = 0; other < i; ++other)
       if (rule.criteria[other].metric == one.metric && rule.criteria[other].comparison == one.comparison) {
-        problems.push_back({"twice", one.metric + " is asked for twice"});
+        problems.push_back({"twice", one.metric + " is given twice"});
         break;
       }
   }

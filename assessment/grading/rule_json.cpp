@@ -12,10 +12,10 @@ constexpr std::size_t kMostCriteria = 100;
 void read_criterion(const Json& json, const std::string& where, cases::SightLaw law, PassRule& rule,
                     std::vector<base::Problem>& wrong) {
   const auto bad = [&](const char* what) { wrong.push_back({"bad_criterion", where + ": " + what}); };
-  if (!json.is_object()) return bad("is no object");
+  if (!json.is_object()) return bad("is not an object");
   for (const auto& [key, value] : json.items())
     if (key != "metric" && key != "version" && key != "comparison" && key != "value" && key != "critical")
-      return bad("holds a field that is not known");
+      return bad("holds an unknown field");
   Criterion one;
   const Json none;
   const auto field = [&](const char* name) -> const Json& { return json.contains(name) ? json.at(name) : none; };
@@ -55,7 +55,7 @@ std::string json_of_rule(const PassRule& rule) {
 }
 
 base::Result<PassRule> rule_from_json(const std::string& text, cases::SightLaw law) {
-  base::Error error{"bad_rule", "the pass rule is not as it should be"};
+  base::Error error{"bad_rule", "the pass rule is not valid"};
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("criteria") || !json.at("criteria").is_array() || json.size() != 1 ||
       json.at("criteria").size() > kMostCriteria) {

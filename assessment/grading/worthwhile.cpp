@@ -59,15 +59,12 @@ const Worthwhile& worthwhile(const MetricInfo& metric) {
 
 std::string worthwhile_markdown() {
   std::string text =
-      "# Smallest worthwhile differences\n\n"
-      "Made by `seldinger help --differences > docs/differences.md`; a test compares. A smaller difference is not "
-      "worth\n"
-      "a word to a trainee. In a score no standard deviation counts as less, so that what all consultants do alike "
-      "still\n"
-      "costs whoever does it otherwise; in a debrief no band counts as narrower. Who knows a better number with a "
-      "source\n"
-      "changes `assessment/grading/worthwhile.cpp`.\n\n"
-      "| metric | difference | unit | source |\n|---|---|---|---|\n";
+      "# Smallest worthwhile differences\n\nMade by `seldinger help --differences > docs/differences.md`; a test "
+      "compares. A smaller difference is not worth\nmentioning to a trainee. In a score no standard deviation "
+      "counts as smaller, so that departing from what all consultants\ndo alike still costs; in a debrief no band "
+      "counts as narrower. To use a better number that has a source, "
+      "change\n`assessment/grading/worthwhile.cpp`.\n\n| metric | difference | unit | source "
+      "|\n|---|---|---|---|\n";
   for (const MetricInfo& info : registry()) {
     if (info.group == Group::recording || info.direction == Direction::none) continue;
     const Worthwhile& row = worthwhile(info);

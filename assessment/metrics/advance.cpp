@@ -162,22 +162,21 @@ constexpr Needs kUnderProbe = kPicturePlane | kSkin | kPictures;
 constexpr std::uint32_t kSame =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kAtAnySpeed | kOneDarkFrame | kLostSamples;
 constexpr const char* kByTissue =
-    "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance; "
-    "2: without the first 1 mm of a further puncture.";
+    "1: how far the tip advanced in the tissue, so that breath that slid past a resting hand was advance; 2: "
+    "without the first 1 mm of a further puncture.";
 constexpr const char* kByTissueSeen =
-    "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance; "
-    "2: without the first 1 mm of a further puncture; 3" SELDINGER_BY_HALF_SLICE " 4" SELDINGER_WITHOUT_CLUTTER;
+    "1: how far the tip advanced in the tissue, so that breath that slid past a resting hand was advance; 2: "
+    "without the first 1 mm of a further puncture; 3" SELDINGER_BY_HALF_SLICE " 4" SELDINGER_WITHOUT_CLUTTER;
 constexpr const char* kByTissueGuided =
-    "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance; also under a "
-    "needle guide; 2: without the first 1 mm of a further puncture.";
+    "1: how far the tip advanced in the tissue, so that breath that slid past a resting hand was advance; also "
+    "under a needle guide; 2: without the first 1 mm of a further puncture.";
 
 constexpr MetricInfo kAdvanceMetrics[] = {
     {"advance_visible_share", 5, "share", "Advance visible", Group::picture, Direction::higher_is_better,
      kUnderProbe | kInPlane,
-     "Share of the length by which the hand advanced the tip in tissue while a live picture showed it; to and fro "
-     "by "
-     "under 1 mm is no advance, nor is breath that slides past a hand at rest (as withdrawals_partial). A "
-     "frozen picture shows nothing. Null: under_1_mm_of_advance.",
+     "Share of the length by which the hand advanced the tip in tissue while a live picture showed it; moving to "
+     "and fro by under 1 mm is not an advance, nor is breath that slides past a hand at rest (as "
+     "withdrawals_partial). A frozen picture shows nothing. Null: under_1_mm_of_advance.",
      "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share,
      kMedianShare, kSame | kNothingIsNothing, kByTissueSeen, kAsksForProbesPicture},
     {"blind_advance", 5, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
@@ -187,8 +186,8 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      kSites, &blind_advance, kMedianRatio, kSame | kNothingIsNothing, kByTissueSeen, kAsksForProbesPicture},
     {"blind_advance_max", 5, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
-     "Longest part of blind_advance from one sight of the tip to the next: of 0.2 s or longer, for a flicker "
-     "shows nobody where it is. A tracking gap neither adds nor ends it.",
+     "Longest part of blind_advance from one sight of the tip to the next; a sight lasts 0.2 s or longer, as a "
+     "flicker shows nobody where the tip is. A tracking gap neither adds nor ends it.",
      kSites, &blind_advance_max, kMedianRatio,
      kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
      "1: as blind_advance's version 1; one picture of the tip, and a gap, ended it; 2: as blind_advance's version "

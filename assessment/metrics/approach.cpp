@@ -47,9 +47,8 @@ constexpr const char* kPlanned = "planned entry and depth are a step of the task
 
 constexpr MetricInfo kApproachMetrics[] = {
     {"closest_approach", 1, "mm", "Closest approach", Group::target, Direction::lower_is_better, kTarget,
-     "Least distance of the tip from the target's centre on the whole path; secondary to tip_target_dist. Before a "
-     "core "
-     "needle's throw. Gaps over 0.25 s are not bridged.",
+     "Smallest distance of the tip from the target's centre on the whole path, before a core needle's throw; "
+     "secondary to tip_target_dist. Gaps over 0.25 s are not bridged.",
      "Perk Tutor's TargetsHit, as a distance", &closest_approach, kMedianRatio, kOfTheWay},
     {"entry_angle_error", 1, "deg", "Angle to planned entry", Group::path, Direction::lower_is_better,
      kPlan | kSkin | kMotion,

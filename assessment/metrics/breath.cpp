@@ -77,16 +77,15 @@ Measured breath_holds_failed(const Signals& signals) {
 
 constexpr Needs kHeld = kEvents | kBreathes;
 constexpr const char* kInTheRoom =
-    "1: told by the room alone, so that a needle that went along with the tissue was pushed on.";
+    "1: judged by the room alone, so that a needle that moved with the tissue counted as pushed on.";
 constexpr const char* kSource = "thesis, appendix A, steps 11 and 12; docs/clinical.md: check in breath-hold";
 
 constexpr MetricInfo kBreathMetrics[] = {
     {"advance_breath_held_share", 2, "share", "Advance with breath held", Group::procedure,
      Direction::higher_is_better, kHeld | kSkin | kTarget | kMotion,
      "Share of the length by which the hand pushed the tip on inside the target's organ (where none is marked, at "
-     "most 20 "
-     "mm from the target's edge) while the breath was held; to and fro by under 1 mm is no advance, nor is what "
-     "breath moves. Null: under_1_mm_of_advance.",
+     "most 20 mm from the target's edge) while the breath was held; moving to and fro by under 1 mm is not an "
+     "advance, nor is movement by breath. Null: under_1_mm_of_advance.",
      kSource, &advance_held_share, kMedianShare,
      kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kNothingIsNothing, kInTheRoom},
     {"advance_in_breath", 2, "mm", "Advance in moving breath", Group::procedure, Direction::lower_is_better,
@@ -95,26 +94,26 @@ constexpr MetricInfo kBreathMetrics[] = {
      kSource, &advance_in_breath, kMedianRatio,
      kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples, kInTheRoom},
     {"fired_breath_held", 1, "bool", "Fired with breath held", Group::procedure, Direction::higher_is_better,
-     kHeld | kEndpoint, "1 or 0: whether the breath was held when the trigger fell.", kSource, &fired_breath_held,
-     kProportionOrFailure,
+     kHeld | kEndpoint, "1 or 0: whether the breath was held when the trigger was pressed.", kSource,
+     &fired_breath_held, kProportionOrFailure,
      kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples | kNothingIsNothing},
     {"breath_hold_time", 1, "s", "Breath held for", Group::procedure, Direction::none, kHeld,
-     "Time up to the endpoint in which the patient held the breath: from when it stood still to when it was lost "
-     "or given back. Neither long nor short is better: never to ask for a hold is 0.",
+     "Time up to the endpoint for which the patient held the breath: from when it stopped to when the hold was "
+     "lost or released. Neither long nor short is better; if no hold is asked for it is 0.",
      kSource, &breath_hold_time, kMedianRatio, kAnyPlace | kOneDarkFrame | kIdleBefore | kLostSamples},
     {"breath_hold_used", 3, "share", "Held breath used", Group::procedure, Direction::higher_is_better,
      kHeld | kSkin,
-     "Share of breath_hold_time that led to something: of each hold, from its begin to the last advance in tissue "
-     "in it, or to the trigger. Null: breath_never_held.",
+     "Share of breath_hold_time that led to something: of each hold, from its start to the last advance in tissue "
+     "during it, or to the trigger. Null: breath_never_held.",
      kSource, &breath_hold_used, kMedianShare, kAnyPlace | kOneDarkFrame | kIdleBefore | kNothingIsNothing,
-     "1: an advance was what the tip came on in the tissue, of breath as well; 2: not the first 1 mm of a further "
+     "1: an advance was how far the tip came in the tissue, by breath as well; 2: not the first 1 mm of a further "
      "puncture."},
     {"breath_holds_asked", 1, "count", "Breath holds asked for", Group::procedure, Direction::none, kHeld,
      "How often a held breath was asked for up to the endpoint.", kSource, &breath_holds_asked, kMeanCount,
      kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples},
     {"breath_holds_failed", 1, "count", "Breath holds failed", Group::procedure, Direction::lower_is_better, kHeld,
-     "How often, up to the endpoint, a held breath was lost by itself: held for too long, or by a cough.", kSource,
-     &breath_holds_failed, kMeanCount,
+     "How often, up to the endpoint, the patient lost a held breath: by holding it for too long, or by a cough.",
+     kSource, &breath_holds_failed, kMeanCount,
      kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples},
 };
 

@@ -85,12 +85,11 @@ Measured tip_target_lateral(const Signals& signals) {
 constexpr MetricInfo kEndpointMetrics[] = {
     {"hit", 3, "bool", "Target hit", Group::target, Direction::higher_is_better, kEndpoint | kTarget,
      "1 or 0. At the endpoint (trigger): access needle, the tip is inside the target, or, where a structure is the "
-     "lumen to be reached, inside that lumen; core needle, at least 5 mm of the fired notch are inside the target. "
-     "A "
-     "sweep through it before is no hit, nor is a needle that came to it otherwise than through skin.",
+     "lumen to be reached, inside that lumen; core needle, at least 5 mm of the fired notch lies inside the "
+     "target. Passing through it earlier is not a hit, nor is reaching it other than through the skin.",
      kVidal, &hit, kProportionOrFailure, kOfTheWay | kNothingIsNothing,
      "1: an access needle hit the target lesion alone, also where a structure is the lumen to be reached; 2: also "
-     "with a needle that had not come through skin, as cases of before decision 0057 have it still.",
+     "with a needle that had not come through skin, as cases from before decision 0057 still have it.",
      kAsksForHit},
     {"first_pass_success", 4, "bool", "First pass hit", Group::target, Direction::higher_is_better,
      kEndpoint | kTarget | kSkin | kMotion,

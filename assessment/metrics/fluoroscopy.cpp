@@ -118,7 +118,7 @@ Measured longest_advance_between_exposures(const Signals& signals) {
 }
 
 constexpr const char* kSpent =
-    "IEC 60601-2-43 (what an interventional machine must tell); SIR's guidelines for patient radiation dose "
+    "IEC 60601-2-43 (what an interventional machine must report); SIR's guidelines for patient radiation dose "
     "management, J. Vasc. Interv. Radiol. 20 (2009) S263";
 constexpr const char* kTechnique =
     "ICRP Publication 117, Ann. ICRP 40 (6), 2010: radiological protection in fluoroscopically guided procedures";
@@ -149,23 +149,21 @@ constexpr MetricInfo kFluoroscopyMetrics[] = {
      kMedianRatio, kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kLostSamples | kOneDarkFrame},
     {"collimated_share", 2, "share", "Field collimated", Group::dose, Direction::higher_is_better,
      kUnderBeam | kTarget,
-     "Share of the whole field that the collimator shut off, averaged over the fluoroscopy time. It counts up to a "
-     "field that still holds the target (its ball) and 20 mm about it on every side, as large as at the isocentre; "
-     "to "
-     "shut off more earns nothing. Null: no_exposure; field_not_known (a pulse without a dose).",
+     "Share of the whole field that the collimator shut off, averaged over the fluoroscopy time. It counts down to "
+     "a field that still holds the target (as a ball) and 20 mm around it on every side, sized as at the "
+     "isocentre; shutting off more earns nothing. Null: no_exposure; field_not_known (a pulse without a dose).",
      kTechnique, &collimated_share, kMedianShare,
      kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kLostSamples | kOneDarkFrame | kAtAnySpeed |
          kNothingIsNothing,
      "1: the whole share shut off, however small the field that was left."},
     {"views", 1, "count", "Views", Group::picture, Direction::none, kUnderBeam,
      "Distinct directions, at least 5° apart, from which pulses were fired with the machine at rest; at most 32 "
-     "are "
-     "told apart.",
+     "are distinguished.",
      kBullsEye, &views, kMeanCount,
      kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kLostSamples | kOneDarkFrame | kAtAnySpeed},
     {"view_angle_max", 1, "deg", "Widest view angle", Group::picture, Direction::higher_is_better, kUnderBeam,
-     "Widest angle between the lines of sight of two pulses fired at rest, 0 to 90°: opposite views tell the same "
-     "depth. Null: fewer_than_two_views.",
+     "Widest angle between the lines of sight of two pulses fired at rest, 0 to 90°: opposite views show the same "
+     "about depth. Null: fewer_than_two_views.",
      kBullsEye, &view_angle_max, kMedianRatio,
      kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kLostSamples | kOneDarkFrame | kAtAnySpeed |
          kNothingIsNothing},
@@ -177,14 +175,13 @@ constexpr MetricInfo kFluoroscopyMetrics[] = {
      kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kLostSamples | kOneDarkFrame},
     {"longest_advance_between_exposures", 2, "mm", "Advance between exposures", Group::picture,
      Direction::lower_is_better, kUnderBeam | kSkin | kMotion | kTissue,
-     "Most that the hand pushed the needle in without a pulse: between two, before the first, and after the last. "
-     "What was withdrawn and inserted again counts again; breath that slides past a hand at rest does not; gaps "
-     "over "
-     "0.25 s are not bridged.",
+     "Greatest length by which the hand pushed the needle in without a pulse: between two, before the first, and "
+     "after the last. What was withdrawn and inserted again counts again; breath that slides past a hand at rest "
+     "does not; gaps over 0.25 s are not bridged.",
      "advancing between exposures is correct practice under fluoroscopy, as long as it is short",
      &longest_advance_between_exposures, kMedianRatio,
      kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing,
-     "1: what the needle came in, so that breath past a resting hand was advance."},
+     "1: how far the needle came in, so that breath past a resting hand was advance."},
 };
 
 }  // namespace

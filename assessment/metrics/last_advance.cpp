@@ -83,9 +83,9 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      Direction::higher_is_better,
      kPicturePlane | kInPlane | kTarget | kSkin | kPictures | kMotion | kTissue | kEndpoint,
      "Share of the last 20 mm of depth before the endpoint through which the tip was pushed while a live picture "
-     "showed tip and target at once. Of a depth that was passed more than once the last time counts; a shorter "
-     "path "
-     "counts whole. Waiting in view adds nothing. A frozen picture shows nothing. Null: under_1_mm_of_advance.",
+     "showed tip and target at once. Where a depth was passed more than once, the last time counts; a shorter path "
+     "counts as a whole. Waiting in view adds nothing. A frozen picture shows nothing. Null: "
+     "under_1_mm_of_advance.",
      "by length instead of time as advance_visible_share, PMC4384236; 20 mm: judgement",
      &joint_visible_last,
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},

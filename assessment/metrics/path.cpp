@@ -197,25 +197,25 @@ constexpr std::uint32_t kOfPath = kAnyPlace | kIdleBefore | kIdleAfter | kOneDar
 constexpr MetricInfo kPathMetrics[] = {
     {"path_tip", 3, "mm", "Tip path", Group::path, Direction::lower_is_better, kMotion,
      "Length of the tip's path, however slowly it went: resampled to 100 Hz, low-passed at 10 Hz (zero-phase "
-     "4th-order Butterworth), through points at least 0.25 mm apart, so that what trembles on one spot goes "
-     "nowhere. The path is the tissue's at rest; breath that moves tissue under a hand at rest, or a needle "
-     "along with the tissue, is none. Gaps over 0.25 s are not bridged. One pose: 0.",
+     "4th-order Butterworth), through points at least 0.25 mm apart, so that tremor on one spot adds nothing. The "
+     "path is relative to the tissue at rest; breath that moves tissue under a hand at rest, or a needle along "
+     "with the tissue, adds nothing. Gaps over 0.25 s are not bridged. One pose: 0.",
      kJohnson, &path_tip, kMedianRatio, kOfPath,
      "1: the filtered path as it was, tremor at rest included; 2: only where it went at 3 mm/s or more for 0.2 "
      "s, so that a slow path was none, and in the room's frame."},
     {"path_in_tissue", 2, "mm", "Tip path in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
-     "The part of path_tip below the skin; what goes through the skin is clipped at it.", "Perk Tutor's TissuePath",
-     &path_in_tissue, kMedianRatio, kOfPath, "1: the part of path_tip's version 2."},
+     "The part of path_tip below the skin; where it crosses the skin it is clipped there.",
+     "Perk Tutor's TissuePath", &path_in_tissue, kMedianRatio, kOfPath, "1: the part of path_tip's version 2."},
     {"path_inefficiency", 2, "%", "Detour in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
-     "How much longer path_in_tissue was than the straight line from where the tip last came through the skin "
-     "to where it ended; to and fro along the needle by under 5 mm is left out (jiggling is taught), and a gap "
+     "How much longer path_in_tissue was than the straight line from where the tip last came through the skin to "
+     "where it ended; moving to and fro along the needle by under 5 mm is left out (jiggling is taught), and a gap "
      "in tissue counts as a straight line. Never negative. Null: not_in_tissue_at_the_end, "
      "under_5_mm_from_the_skin.",
      "Perk Tutor's PathInefficiency, in tissue", &path_inefficiency, kMedianRatio, kOfPath,
-     "1: of path_in_tissue's version 1: −100 % for whoever went more slowly than 3 mm/s."},
+     "1: of path_in_tissue's version 1: −100 % at less than 3 mm/s."},
     {"swept_area", 1, "mm²", "Area swept by shaft", Group::safety, Direction::lower_is_better, kMotion | kSkin,
-     "Area that the needle between skin entry and tip swept, as a fan of triangles; to and fro by under 0.5 mm "
-     "at the tip, and pushing, sweep nothing.",
+     "Area that the needle between skin entry and tip swept, as a fan of triangles; moving to and fro by under 0.5 "
+     "mm at the tip, and pushing, sweep nothing.",
      "potential tissue damage: Perk Tutor's TissueDamage; Keri et al. 2015", &swept_area, kMedianRatio,
      kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples},
     {"ldlj", 2, "1", "Smoothness", Group::path, Direction::higher_is_better, kMotion,

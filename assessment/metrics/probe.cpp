@@ -156,28 +156,29 @@ constexpr std::uint32_t kProbeLaws =
 constexpr MetricInfo kProbeMetrics[] = {
     {"probe_suits", 1, "bool", "Probe that suits", Group::picture, Direction::higher_is_better,
      kUltrasound | kTarget | kSkin | kMotion | kProbeChosen,
-     "1 where the probe that was chosen suits a target so deep, else 0: when the skin was first punctured, the "
-     "target's middle lay at most 50 mm below a linear probe's face, at least 25 mm below a curved one's, along "
-     "its axis. Null: never_punctured.",
+     "1 where the chosen probe suits the target's depth, else 0: when the skin was first punctured, the target's "
+     "middle lay at most 50 mm below a linear probe's face, at least 25 mm below a curved one's, along its axis. "
+     "Null: never_punctured.",
      "teaching texts take a linear probe down to about 5 cm; our judgement nearer", &probe_suits, kProportion,
      kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kNothingIsNothing},
     {"probe_drift_advancing", 2, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better,
      kOfProbe,
-     "How far the picture's plane went, across itself, at the tip or at the target's centre, whichever is "
-     "more, while the needle in tissue advanced; a tilt counts with its depth. To and fro by under 1 mm is no "
-     "drift, nor is a probe at rest on a patient who breathes or one that goes along with the skin: what "
-     "counts is what both the room and the tissue at the tip say. Null: no_picture_plane.",
+     "How far the picture's plane moved, at right angles to itself, at the tip or at the target's centre, "
+     "whichever is more, while the needle advanced in tissue; a tilt counts with its depth. Moving to and fro by "
+     "under 1 mm is not drift, nor is a probe at rest on a patient who breathes or one that moves with the skin: "
+     "only movement both in the room and in the tissue at the tip counts. Null: no_picture_plane.",
      kSites, &measured<&Probe::drift_mm>, kMedianRatio, kProbeLaws,
      "1: the path of the middle of the probe's face in the room, so that no tilt counted, while the needle went "
      "at more than 2 mm/s, also under a needle guide."},
     {"probe_shift_advancing", 1, "mm", "Probe shift advancing", Group::picture, Direction::lower_is_better,
      kOfProbe,
      "The part of probe_drift_advancing's motion that slides: path of the middle of the probe's face over the "
-     "skin, in any direction, while the needle in tissue advanced; counted as that is. Null: no_picture_plane.",
+     "skin, in any direction, while the needle advanced in tissue; counted in the same way. Null: "
+     "no_picture_plane.",
      kSites, &measured<&Probe::shift_mm>, kMedianRatio, kProbeLaws},
     {"probe_turn_advancing", 1, "deg", "Probe turn advancing", Group::picture, Direction::lower_is_better, kOfProbe,
-     "The part that turns: by how much the probe was tilted, rocked or rotated while the needle in tissue "
-     "advanced; to and fro by under 1° is none. Null: no_picture_plane.",
+     "The part that turns: by how much the probe was tilted, rocked or rotated while the needle advanced in "
+     "tissue; turning to and fro by under 1° does not count. Null: no_picture_plane.",
      kSites, &measured<&Probe::turn_deg>, kMedianRatio, kProbeLaws},
 };
 

@@ -32,28 +32,28 @@ constexpr std::uint32_t kAnyOfThese = kInAnyFrame | kMirrored | kIdleBefore | kI
 
 constexpr MetricInfo kPuncturesMetrics[] = {
     {"skin_punctures", 1, "count", "Skin punctures", Group::safety, Direction::lower_is_better, kSkin | kMotion,
-     "Times the tip went more than 2 mm below the skin for at least 100 ms; the next counts after it was 1 mm "
-     "outside. The ends of the volume are no skin; lung and gas are body. What starts inside is no puncture.",
+     "Times the tip went more than 2 mm below the skin for at least 100 ms; the next one counts once the tip has "
+     "been 1 mm outside. The edges of the volume are not skin; lung and gas are body. Starting inside is not a "
+     "puncture.",
      kJohnson, &skin_punctures, kMeanCount, kAnyOfThese | kInAnyBreath | kLostSamples},
     {"withdrawals_partial", 3, "count", "Partial withdrawals", Group::path, Direction::lower_is_better,
      kSkin | kMotion,
-     "Times the hand drew the needle back by 20 % of how deep it had pushed it (at least 2, at most 5 mm) and "
-     "pushed it on by as much again without leaving the skin by 1 mm. What goes along the needle counts where both "
-     "the "
-     "hand's tip and its place in the tissue went: breath that slides past a hand at rest draws nothing back.",
+     "Times the hand drew the needle back by 20 % of the depth to which it had pushed it (at least 2, at most 5 "
+     "mm) and pushed it on by as much again without coming out of the skin by 1 mm. Movement along the needle "
+     "counts only where the tip moved both in the room and in the tissue: breath that slides past a hand at rest "
+     "draws nothing back.",
      kVidal, &withdrawals_partial, kMeanCount, kAnyOfThese | kAtAnySpeed | kLostSamples,
-     "1: told by the tip's place in the tissue alone, so that breath past a resting hand drew back with each "
+     "1: judged by the tip's place in the tissue alone, so that breath past a resting hand drew back with each "
      "cycle; 2: not where the tip came out of the skin by less than 1 mm."},
     {"withdrawals_full", 2, "count", "Full withdrawals", Group::path, Direction::lower_is_better, kSkin | kMotion,
-     "Times the needle, once more than 2 mm below the skin for 100 ms, left it by more than 1 mm and punctured "
-     "it again; the last removal is none.",
+     "Times the needle, once more than 2 mm below the skin for 100 ms, left it by more than 1 mm and punctured it "
+     "again; the final removal does not count.",
      kVidal, &withdrawals_full, kMeanCount, kAnyOfThese | kInAnyBreath | kLostSamples,
      "1: the removal at the end of an attempt without a trigger counted, too."},
     {"withdrawn_at_end", 2, "bool", "Withdrawn at the end", Group::path, Direction::none, kSkin | kMotion,
-     "1 where the needle, once it had punctured the skin, stood drawn back at the end, by as much as "
-     "withdrawals_partial asks for or out of the skin, and was not pushed on again; else 0. Null: "
-     "never_punctured.",
-     "what a withdrawal that nothing follows is, and no count of withdrawals sees", &withdrawn_at_end, kProportion,
+     "1 where the needle, having punctured the skin, was left drawn back at the end, by as much as "
+     "withdrawals_partial requires or out of the skin, and was not pushed on again; else 0. Null: never_punctured.",
+     "a withdrawal that nothing follows, which no count of withdrawals includes", &withdrawn_at_end, kProportion,
      kAnyOfThese | kAtAnySpeed | kLostSamples | kNothingIsNothing,
      "1: 0 where the tip stood outside of the skin by less than 1 mm."},
 };

@@ -36,22 +36,22 @@ constexpr std::uint32_t kOfTracker = kInAnyFrame | kMirrored | kOneDarkFrame;
 
 constexpr MetricInfo kRecordingMetrics[] = {
     {"gap_share", 3, "share", "Tracking gaps", Group::recording, Direction::lower_is_better, 0,
-     "Share of the time in gaps between poses: of over 0.25 s, or in which the tip jumped and was not repaired "
-     "(jumps_unrepaired); gaps belong to no other metric's denominator. An attempt with over 5 % is not "
+     "Share of the time in gaps between poses: gaps of over 0.25 s, or with a jump of the tip that was not "
+     "repaired (jumps_unrepaired); gaps belong to no other metric's denominator. An attempt with over 5 % is not "
      "graded. Null: too_short.",
      "data quality", &gap_share, kMedianShare, kOfTracker,
      "1: only of over 0.25 s; 2: with jumps as tracking_jumps' version 1 had them."},
     {"sample_rate_p5", 1, "Hz", "Tracking rate", Group::recording, Direction::higher_is_better, 0,
-     "Rate of the poses that was kept for 95 % of the time outside gaps. An attempt under 60 Hz is not graded. "
+     "Rate of the poses that was kept up for 95 % of the time outside gaps. An attempt under 60 Hz is not graded. "
      "Null: too_short (or nothing but gaps).",
      "data quality", &sample_rate_p5, kMedianRatio, kOfTracker},
     {"tracking_jumps", 2, "count", "Tracking jumps", Group::recording, Direction::lower_is_better, 0,
-     "Times the needle's tip went, over 10 ms, at more than 2 m/s or was accelerated by more than 100 m/s²: no "
-     "hand does, the tracker lost it. What follows another within 0.1 s is one with it: there and back. Counted "
-     "before anything is repaired; "
-     "moves of the program's own (needle guide, change of hands, start) are none.",
+     "Times the needle's tip, over 10 ms, moved faster than 2 m/s or accelerated by more than 100 m/s²: no hand "
+     "does that, the tracker lost it. A jump within 0.1 s of another counts as one with it: there and back. "
+     "Counted before anything is repaired; moves made by the program (needle guide, change of hands, start) do not "
+     "count.",
      "data quality", &tracking_jumps, kMeanCount, kOfTracker,
-     "1: only more than 50 mm at more than 10 m/s, so that 80 mm in 10 ms were the hand's."},
+     "1: only more than 50 mm at more than 10 m/s, so that 80 mm in 10 ms counted as the hand's."},
     {"jumps_unrepaired", 1, "count", "Jumps not repaired", Group::recording, Direction::lower_is_better, 0,
      "Of tracking_jumps, those left after single poses far from their neighbours were put back between them "
      "(repaired_share). They are gaps, and an attempt with any is not graded.",
@@ -59,7 +59,7 @@ constexpr MetricInfo kRecordingMetrics[] = {
     {"repaired_share", 1, "share", "Poses repaired", Group::recording, Direction::lower_is_better, 0,
      "Share of the poses that were part of a jump, that a Hampel filter (seven poses, three times 1.4826 the "
      "median absolute deviation) found far from their neighbours, and that were put back between them, at most "
-     "three in a row: every metric is of the poses so repaired. An attempt with over 1 % is not graded.",
+     "three in a row: every metric is measured on the repaired poses. An attempt with over 1 % is not graded.",
      "Hampel filter: Pearson, IEEE Trans. Control Syst. Technol. 10 (2002) 55", &repaired_share, kMedianShare,
      kOfTracker},
 };

@@ -203,23 +203,18 @@ constexpr const char* kWall =
 constexpr MetricInfo kStructuresMetrics[] = {
     {"nogo_contacts", 1, "count", "No-go contacts", Group::safety, Direction::lower_is_better, kNoGo,
      "Times the tip's path, a core needle's throw included, went more than 0.5 mm inside a structure to stay out "
-     "of; the "
-     "next counts after 0.5 mm outside. Steps of under 0.25 mm are ignored. Where a structure comes from voxels, "
-     "its "
-     "surface is known to nogo_uncertainty.",
+     "of; the next one counts once the tip has been 0.5 mm outside. Steps of under 0.25 mm are ignored. Where a "
+     "structure comes from voxels, its surface is known to within nogo_uncertainty.",
      kClinical, &nogo_contacts, kMeanCount, kOfTheTrace},
     {"clearance_min", 1, "mm", "Least clearance", Group::safety, Direction::higher_is_better,
      kNoGo | kSkin | kMotion | kTissue,
-     "Least distance of the tip in tissue, on its path and in a core needle's throw, from a structure to stay out "
-     "of; "
-     "negative inside, also where that is too short a path to be a contact; at most 20. Where a structure comes "
-     "from "
-     "voxels, its surface is known to nogo_uncertainty.",
+     "Smallest distance of the tip in tissue, on its path and in a core needle's throw, from a structure to stay "
+     "out of; negative inside, even where the path inside is too short to be a contact; at most 20. Where a "
+     "structure comes from voxels, its surface is known to within nogo_uncertainty.",
      kClinical, &clearance_min, kMedianInterval, kOfTheTrace | kNothingIsNothing},
     {"capsule_punctures", 1, "count", "Capsule punctures", Group::safety, Direction::lower_is_better, kOrgan,
      "Times the tip, a core needle's throw included, went from outside more than 0.5 mm into the organ that "
-     "carries "
-     "the target; the next counts after 0.5 mm outside.",
+     "carries the target; the next one counts once the tip has been 0.5 mm outside.",
      kCapsule, &capsule_punctures, kMeanCount, kOfTheTrace},
     {"posterior_wall", 1, "count", "Far wall punctures", Group::safety, Direction::lower_is_better, kLumen,
      "Times the tip, a core needle's throw included, left the lumen to be reached forwards, by more than 0.5 mm.",
@@ -230,16 +225,14 @@ constexpr MetricInfo kStructuresMetrics[] = {
      kWall, &back_wall_dist, kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
     {"must_cross_length", 1, "mm", "Path through must-cross structures", Group::safety, Direction::higher_is_better,
      kMustCross | kEndpoint | kSkin,
-     "At the endpoint, length of the needle from the skin to the tip inside structures through which the right "
-     "path "
-     "leads (renal parenchyma before a calyx). Null: not_in_tissue_at_the_end.",
+     "At the endpoint, length of the needle, from the skin to the tip, inside structures that the right path "
+     "crosses (renal parenchyma before a calyx). Null: not_in_tissue_at_the_end.",
      "puncture through the parenchyma: Sampaio et al., J. Urol. 148 (1992) 1769", &must_cross_length,
      kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
     {"nogo_length", 2, "mm", "Path through no-go structures", Group::safety, Direction::lower_is_better, kNoGo,
      "Length of the tip's path, to and fro and a core needle's throw included, inside structures to stay out of, "
-     "counted from the entry of each visit that nogo_contacts counts; shorter ones are 0. Where two overlap it "
-     "counts "
-     "once. Of voxels the surface is known to nogo_uncertainty.",
+     "from the start of each visit that nogo_contacts counts; shorter visits add 0. Where two structures overlap, "
+     "it counts once. Where a structure comes from voxels, its surface is known to within nogo_uncertainty.",
      kClinical, &nogo_length, kMedianRatio, kOfTheTrace,
      "1: every length inside counted, a graze of under 0.5 mm, too."},
     {"nogo_length_critical", 2, "mm", "Path through critical structures", Group::safety, Direction::lower_is_better,
@@ -252,16 +245,14 @@ constexpr MetricInfo kStructuresMetrics[] = {
      kNoGoAdvisory, "As nogo_length, of structures that are better avoided.", kClinical, &nogo_length_advisory,
      kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
     {"nogo_time", 2, "s", "Time in no-go", Group::safety, Direction::lower_is_better, kNoGo | kMotion,
-     "Time with the tip inside structures to stay out of, counted from the entry of each visit that nogo_contacts "
-     "counts; shorter ones are 0. Gaps over 0.25 s belong to no time.",
+     "Time with the tip inside structures to stay out of, from the start of each visit that nogo_contacts counts; "
+     "shorter visits add 0. Gaps over 0.25 s are left out.",
      kClinical, &nogo_time, kMedianRatio, kAnyPlace | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples,
      "1: every time inside counted, a graze of under 0.5 mm, too."},
     {"nogo_uncertainty", 1, "mm", "No-go surfaces known to", Group::safety, Direction::none, kNoGo,
      "How far off the surface of a structure to stay out of may be: half the longest edge of a voxel where one "
-     "comes "
-     "from voxels (a label map, a tissue class), 0 where all are drawn. No-go lengths, contacts and clearance "
-     "within "
-     "it are not told apart from a graze.",
+     "comes from voxels (a label map, a tissue class), 0 where all are drawn. No-go lengths, contacts and "
+     "clearance within it cannot be distinguished from a graze.",
      "half the width of a rectangular distribution: JCGM 100:2008 (GUM), 4.3.7", &nogo_uncertainty, kMedianRatio,
      kOfTheWay},
 };

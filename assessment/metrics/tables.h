@@ -14,11 +14,11 @@ namespace seldinger::assessment {
 
 // What the versions of older laws of sight did otherwise.
 #define SELDINGER_BY_HALF_SLICE \
-  ": what pictures showed by the law half_slice, as cases of that law have it still (decision 0057)."
+  ": what pictures showed by the law half_slice, as cases of that law still have it (decision 0057)."
 #define SELDINGER_WITHOUT_CLUTTER \
-  ": without clutter in ultrasound, as cases of the law scatter and before have it still (decision 0090)."
+  ": without clutter in ultrasound, as cases of the law scatter and before still have it (decision 0090)."
 #define SELDINGER_BY_ECHO \
-  ": without what is scattered under X-rays, as cases of the law echo have it still (decision 0082)."
+  ": without what is scattered under X-rays, as cases of the law echo still have it (decision 0082)."
 
 std::span<const MetricInfo> endpoint_metrics();
 std::span<const MetricInfo> approach_metrics();

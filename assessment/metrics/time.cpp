@@ -77,31 +77,29 @@ Measured time_needle(const Signals& signals) {
 }
 
 constexpr const char* kThreeParts =
-    "judgement: who talks long has no slow hands, and the patient bears only the needle";
+    "judgement: long talk does not mean slow hands, and the patient bears only the needle";
 
 constexpr MetricInfo kTimeMetrics[] = {
     {"time_total", 1, "s", "Time", Group::time, Direction::lower_is_better, 0,
      "From the first pose to the endpoint; without an endpoint to the last pose.", kJohnson, &time_total,
      kMedianTimeCensored, kAnyPlace | kInAnyBreath | kOneDarkFrame | kLostSamples},
     {"time_talk", 1, "s", "Time before the hands", Group::time, Direction::none, kSkin,
-     "The part of time_total before anything was done with the hands, in which is looked, thought and said: until "
-     "needle or probe was more than 5 mm from where it was at the first pose, or turned by more than 5°, or a "
-     "pulse "
-     "was fired, or the tip was below the skin. time_talk, time_search and time_needle make time_total.",
+     "The part of time_total before the hands did anything, for looking, thinking and talking: until needle or "
+     "probe was more than 5 mm from where it was at the first pose, or turned by more than 5°, or a pulse was "
+     "fired, or the tip was below the skin. time_talk, time_search and time_needle add up to time_total.",
      kThreeParts, &time_talk, kMedianRatio, kAnyPlace | kOneDarkFrame | kLostSamples},
     {"time_search", 1, "s", "Time at work outside", Group::time, Direction::lower_is_better, kSkin,
-     "The part of time_total after time_talk in which the tip was not below the skin: the probe is at work, the "
-     "entry "
-     "is sought, also between two punctures. A gap counts with what was before it.",
+     "The part of time_total after time_talk in which the tip was not below the skin: the probe is in use or the "
+     "entry is sought, also between two punctures. A gap counts with what came before it.",
      kThreeParts, &time_search, kMedianRatio, kAnyPlace | kIdleBefore | kOneDarkFrame | kLostSamples},
     {"time_needle", 1, "s", "Time with needle in", Group::time, Direction::lower_is_better, kSkin,
-     "The part of time_total in which the tip was below the skin. A gap counts with what was before it; "
+     "The part of time_total in which the tip was below the skin. A gap counts with what came before it; "
      "time_in_tissue leaves gaps out.",
      kThreeParts, &time_needle, kMedianTimeCensored,
      kAnyPlace | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples},
     {"time_in_tissue", 1, "s", "Time in tissue", Group::time, Direction::lower_is_better, kSkin | kMotion,
-     "Time with the tip below the skin; gaps over 0.25 s belong to none.", "Perk Tutor's TissueTime",
-     &time_in_tissue, kMedianRatio, kAnyPlace | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples},
+     "Time with the tip below the skin; gaps over 0.25 s are left out.", "Perk Tutor's TissueTime", &time_in_tissue,
+     kMedianRatio, kAnyPlace | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples},
     {"time_puncture_to_target", 1, "s", "From puncture to trigger", Group::time, Direction::lower_is_better,
      kEndpoint | kSkin | kMotion,
      "From the first skin puncture that counts, 2 mm deep, to the endpoint. Null: never_punctured.", kJohnson,

@@ -84,35 +84,31 @@ constexpr MetricInfo kVisibilityMetrics[] = {
     {"vis_joint", 5, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kSkin | kPictures, "As vis_needle, for tip and target at once. Null: as vis_target.",
      kVidal, &share<&Shares::joint_s, Shown::target>, kMedianShare, kShares,
-     "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_BY_HALF_SLICE
+     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_BY_HALF_SLICE
      " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
      kAsksForAnyPicture},
     {"vis_needle", 5, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Share of the time in tissue in which a live picture showed the needle's tip. A frozen picture shows nothing, "
-     "and "
-     "its time counts. Under a fluoroscope the share is of the time with a live picture alone, which lasts from a "
-     "pulse until the time to the next is over. Null: under_1_s_in_tissue (fluoroscope: "
+     "but its time counts. Under fluoroscopy the share is of the time with a live picture only; a picture lasts "
+     "from its pulse until the next is due. Null: under_1_s_in_tissue (fluoroscope: "
      "under_1_s_in_tissue_with_a_live_picture).",
      kVidal, &share<&Shares::needle_s, Shown::needle>, kMedianShare, kShares,
-     "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_BY_HALF_SLICE
+     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_BY_HALF_SLICE
      " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
      kAsksForAnyPicture},
     {"vis_shaft", 3, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "As vis_needle, for any part of the needle: shown without its tip, it misleads. Null: as vis_needle.",
      kJohnson, &share<&Shares::shaft_s, Shown::needle>, kMedianShare, kShares,
-     "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
+     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
      kAsksForShaft},
     {"vis_target", 5, "share", "Target visible", Group::picture, Direction::higher_is_better,
      kTarget | kSkin | kPictures,
      "As vis_needle, for the target. Null: as vis_needle; no_view_shows_target (fluoroscope: none did, and none "
-     "could: "
-     "across its whole width the target takes off under 5 % more or less than what lies about it). Other guidance "
-     "is "
-     "never told so: a slice shows any target that lies in it, and in ultrasound one that echoes as what lies "
-     "about "
-     "it, or that bone or gas hides from everywhere, is not seen: 0.",
+     "could: across its whole width the target attenuates under 5 % more or less than what lies around it). Under "
+     "other guidance this is never the reason: a slice shows any target that lies in it, and in ultrasound one "
+     "that echoes like what lies around it, or that bone or gas hides from everywhere, is not seen: 0.",
      kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone, and 0 where no picture could show the target; "
      "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
@@ -130,17 +126,17 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "As vis_joint, by geometry alone: tip and target's centre within 2 mm of the picture's plane and inside its "
      "field. Null: as vis_needle.",
      kPerk, &share<&Shares::joint_2_mm_s, Shown::places>, kMedianShare, kShares,
-     "1: of the time with a live picture alone: to freeze it took bad time out."},
+     "1: of the time with a live picture alone: freezing it took bad time out."},
     {"vis_joint_5_mm", 2, "share", "Both within 5 mm", Group::picture, Direction::higher_is_better,
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
      "As vis_joint_2_mm, within 5 mm. Null: as vis_needle.", kPerk, &share<&Shares::joint_5_mm_s, Shown::places>,
-     kMedianShare, kShares, "1: of the time with a live picture alone: to freeze it took bad time out."},
+     kMedianShare, kShares, "1: of the time with a live picture alone: freezing it took bad time out."},
     {"visible_needle_length", 3, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Mean, over the time that vis_needle counts, of the shaft's length that the picture showed. Null: as "
      "vis_needle.",
      kJohnson, &share<&Shares::needle_length_mm_s, Shown::needle>, kMedianRatio, kShares,
-     "1: of the time with a live picture alone: to freeze it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
+     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
      kAsksForShaft},
 };
 

@@ -64,12 +64,10 @@ Measured way_impossible(const Signals& signals) {
 
 constexpr MetricInfo kWayMetrics[] = {
     {"way_impossible", 1, "bool", "Impossible path", Group::recording, Direction::lower_is_better, kSkin,
-     "1 where the tip stood for 0.1 s, or when the trigger fell, where only a side at which the CT is cut could "
-     "have "
-     "led it; where it left the body ahead, 5 mm and more from where it came in; or where the needle in the body "
-     "pointed up by more than 30° with its hub 10 mm and more below the table: no hand does. Else 0. Such an "
-     "attempt "
-     "is not graded.",
+     "1 where the tip was, for 0.1 s or when the trigger was pressed, in a place that it could only have reached "
+     "through a cut side of the CT; where it left the body ahead, 5 mm or more from where it came in; or where the "
+     "needle in the body pointed up by more than 30° with its hub 10 mm or more below the table: no hand does "
+     "that. Else 0. Such an attempt is not graded.",
      "docs/clinical.md, Body and patient", &way_impossible, kProportion, kInAnyFrame | kMirrored | kOneDarkFrame},
 };
 

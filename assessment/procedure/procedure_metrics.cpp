@@ -69,46 +69,40 @@ constexpr std::uint32_t kOfEvents = kOfSteps | kAtAnySpeed | kInAnyBreath | kOne
 
 constexpr MetricInfo kProcedureMetrics[] = {
     {"procedure_performed", 1, "bool", "Procedure performed", Group::procedure, Direction::none, kSkin,
-     "1 where the skin was punctured (as skin_punctures counts), the trigger fell, or it was said to defer the "
-     "case; "
-     "else 0. To look, to talk or to hold the needle beside the patient is no procedure, and has the best value of "
-     "whatever counts errors: comparisons are among attempts with 1.",
+     "1 where the skin was punctured (as skin_punctures counts), the trigger was pressed, or the trainee said to "
+     "defer the case; else 0. Looking, talking or holding the needle beside the patient is not a procedure, yet "
+     "has the best value of every count of errors: comparisons are among attempts with 1.",
      "the population of an estimand: ICH E9(R1), 2019, A.3.3", &procedure_performed, kProportion, kOfTheWay},
     {"decision_right", 2, "bool", "Right decision", Group::procedure, Direction::higher_is_better,
      kEvents | kDecision | kSkin,
-     "1 or 0: whether a case to be deferred was deferred, neither saying to proceed nor puncturing the skin, or "
-     "one to "
-     "go ahead was not deferred. Null: nothing_decided (neither said nor punctured).",
+     "1 or 0: whether a case that should be deferred was deferred, with neither a word to proceed nor a skin "
+     "puncture, or one that should go ahead was not deferred. Null: nothing_decided (neither said nor punctured).",
      "docs/clinical.md, case 8; SIR 2019 thresholds", &decision_right, kProportion, kOfEvents | kNothingIsNothing,
      "1: to proceed and to defer could both be said."},
     {"steps_done", 4, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
-     "Share done of the graded steps (steps.md) that were asked for; a step that an action can show, by the action "
-     "only. "
-     "Null: no_step_asked_for.",
+     "Share of the graded steps (steps.md) asked for that were done; a step that an action can show counts by the "
+     "action only. Null: no_step_asked_for.",
      kStepSources, &steps_done, kMedianShare, kOfSteps,
-     "1: steps of breath and the jiggle counted nowhere; 2: said was as good as done, and depth by the needle's "
-     "marks, "
-     "the angle at the skin and the way back from the check in the held breath were no steps; 3: as steps_shown 1 "
-     "had it"},
+     "1: steps of breath and the jiggle counted nowhere; 2: saying was as good as doing, and depth by the needle's "
+     "marks, the angle at the skin and the way back from the check in the held breath were no steps; 3: as "
+     "steps_shown 1 had it"},
     {"steps_shown", 2, "share", "Steps shown", Group::procedure, Direction::higher_is_better, kEvents,
-     "As steps_done, of the steps that an action can show: what was said neither counts nor is asked for. Null: "
-     "no_step_asked_for.",
+     "As steps_done, for the steps that an action can show: what was only said neither counts nor is asked for. "
+     "Null: no_step_asked_for.",
      kStepSources, &steps_shown, kMedianShare, kOfSteps,
-     "1: breath that slid past a resting hand was a jiggle, and the rest as steps_violated 3 had it"},
+     "1: breath that slid past a resting hand counted as a jiggle, and the rest as in steps_violated 3"},
     {"steps_violated", 4, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
      "Graded steps (steps.md) that were violated. Null: nothing_done (none was, and there was neither a skin "
      "puncture "
      "nor a deferral).",
      kStepSources, &steps_violated, kMeanCount, kOfSteps | kNothingIsNothing,
-     "1: steps of breath counted nowhere; 2: who did nothing had 0, and going on unchecked in the held breath was "
-     "no "
-     "violation; 3: a needle that went along with the tissue was pushed on, of a further puncture the first 1 mm "
-     "was "
-     "not, and a picture in a tracking gap ended a blind run"},
+     "1: steps of breath counted nowhere; 2: an attempt in which nothing was done had 0, and going on unchecked in "
+     "the held breath was no violation; 3: a needle that went along with the tissue was pushed on, of a further "
+     "puncture the first 1 mm was not, and a picture in a tracking gap ended a blind run"},
     {"pain_reactions", 2, "count", "Pain reactions", Group::procedure, Direction::lower_is_better,
      kPatient | kEvents | kSkin | kTissue,
      "How often the patient felt pain: skin punctured where it was not numb, bone met.", kStepSources,
-     &pain_reactions, kMeanCount, kOfEvents | kNothingIsNothing, "1: who did nothing had 0"},
+     &pain_reactions, kMeanCount, kOfEvents | kNothingIsNothing, "1: an attempt in which nothing was done had 0"},
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ constexpr StepInfo kSteps[] = {
     {"hold_at_entry", "Hold the needle at the entry", kSkin, needle_at_skin, none, none, kAlways, kTask(4)},
     {"aim_along_beam", "Aim along the beam: bull's-eye view", kXray | kPictures | kBeam, looked_along_needle,
      at_target, hand_in_beam, kAlways, kBullsEye},
-    {"insert", "Insert the needle; the skin of a patient must be numb", kSkin, punctured, none, skin_pain, kAlways,
+    {"insert", "Insert the needle; a patient's skin must be numb", kSkin, punctured, none, skin_pain, kAlways,
      kTask(6)},
     {"enter_at_angle", "Enter the skin at the planned angle", kSkin | kPlan, angle_kept, none, none, kAlways,
      kTask(6)},
@@ -64,7 +64,8 @@ constexpr StepInfo kSteps[] = {
     {"keep_off_bone", "Keep off bone", kPatient | kEvents | kSkin, at_target, fired, bone_pain, kAlways, kAround},
     {"judge_depth", "Judge the depth from a second view", kXray | kPictures | kBeam | kTarget | kSkin,
      looked_across_needle, fired, none, kAlways, kBullsEye},
-    {"exchange_stylet", "Through an introducer: at the target's edge draw its stylet, and go on with the needle",
+    {"exchange_stylet",
+     "Through an introducer: at the target's edge withdraw its stylet, and go on with the needle",
      kPatient | kEvents | kCoreNeedle | kTarget | kSkin, stylet_exchanged, fired, fired_on_stylet, kAlways, kAround,
      none, introducer_used},
     {"reach_target", "Reach the target; with a core needle, its edge", kTarget | kSkin, at_target, fired, none,
@@ -75,7 +76,7 @@ constexpr StepInfo kSteps[] = {
      kPatient | kEvents | kTrouble | kSkin, stopped_in_trouble, none, went_on_in_trouble, kAlways, kAround},
     {"ask_breath_hold", "Ask the patient to hold the breath", kPatient | kEvents, breath_hold_asked, fired, none,
      kBreathes, kTask(11)},
-    {"hold_before_organ", "Have the breath held before the organ is entered, and on the way in it",
+    {"hold_before_organ", "Have the breath held before entering the organ, and while advancing in it",
      kEvents | kBreathes | kTarget | kSkin, pushed_in_hold, none, pushed_in_breath, kAlways, kTask(11)},
     {"check_in_breath_hold", "Check needle and target while the breath is held",
      kPatient | kEvents | kPicturePlane | kPictures | kTarget | kSkin, seen_in_breath_hold, fired, on_unchecked,
@@ -191,24 +192,16 @@ std::string steps_markdown() {
   const auto words = [](Evidence of) { return of == none ? std::string("–") : std::string(about(of).words); };
   std::string text =
       "# Steps of a puncture\n\nMade from the tables in `assessment/procedure/` by `seldinger help --steps`; a "
-      "test "
-      "compares.\nA step is done when its evidence was there in time, skipped when it never was or came too late, "
-      "violated\nwhatever else was done, and not asked for where the guidance, the needle, the case or the "
-      "recording "
-      "lacks what\nit needs. Steps that are graded with something count in cases that have it, else they are told "
-      "and do not count "
-      "(docs/clinical.md).\n\n"
-      "A step is *shown* where an action completes it: what hands, pictures and patient tell. What is said about "
-      "it "
-      "is "
-      "told\nand does not count. Where no action can show it, the step is *said*: the trainee is taken at his or "
-      "her word. "
-      "`steps_shown`\nis the share done of the former.\n\n"
-      "The angle at the skin is right or wrong for a way that is given, and no case states limits of its own: "
-      "where "
-      "no\nentry is planned, `enter_at_angle` is not asked for.\n\n"
-      "| id | step | by | asked for with | done when | before | violated when | graded | source |\n"
-      "|---|---|---|---|---|---|---|---|---|\n";
+      "test compares.\nA step is done when its evidence came in time, skipped when it never came or came too late, "
+      "violated\nwhere it was done wrongly, whatever else was done, and not asked for where the guidance, the "
+      "needle, the case or the\nrecording lacks what it needs. Steps that are graded with something count in cases "
+      "that have it; elsewhere they are\nlisted and do not count (docs/clinical.md).\n\nA step is *shown* where an "
+      "action completes it: hands, pictures and patient are the evidence. What is said about it is\nlisted and "
+      "does not count. Where no action can show it, the step is *said*: the trainee is taken at his or her "
+      "word.\n`steps_shown` is the share of the shown steps that were done.\n\nThe angle at the skin is right or "
+      "wrong for a planned path only, and no case states limits of its own: where no\nentry is planned, "
+      "`enter_at_angle` is not asked for.\n\n| id | step | by | asked for with | done when | before | violated "
+      "when | graded | source |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const StepInfo& step : kSteps) {
     const std::string needs = words_of_needs(step.needs), graded_with = words_of_needs(step.graded_with);
     const std::string when = step.asked_when == none ? "" : "; where " + words(step.asked_when);

@@ -61,7 +61,7 @@ Answer settled(Answer answer) {
     none.notes = std::move(answer.notes);
     return none;
   }
-  if (lost) answer.notes.emplace_back("What is no finite number for these values is left out.");
+  if (lost) answer.notes.emplace_back("What is not a finite number for these values is left out.");
   return answer;
 }
 

@@ -32,7 +32,7 @@ const RecordedEventInfo* info_of(std::string_view kind) {
 
 const std::vector<RecordedEventInfo>& recorded_event_kinds() {
   static const std::vector<RecordedEventInfo> kinds = [] {
-    std::vector<RecordedEventInfo> all = {{"fire", kHand, "fired", "the trigger fell: the endpoint"},
+    std::vector<RecordedEventInfo> all = {{"fire", kHand, "fired", "the trigger was pressed: the endpoint"},
                                           {"freeze", kHand, "froze the picture", "the picture was frozen"},
                                           {"unfreeze", kHand, "let the picture go on", "the picture went on"},
                                           {"pedal_down", kHand, "pedal down", "the fluoroscope's pedal went down"},

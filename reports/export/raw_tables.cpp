@@ -54,18 +54,18 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
   // A long function, but a plain table: one entry for each column, in the order of the file.
   static const std::vector<Column<Facts>> columns = {
       // Whose attempt it is.
-      {{"attempt", "text", "", "", "this export's name of the attempt; says nothing of when or whose it was"},
+      {{"attempt", "text", "", "", "this export's name for the attempt; reveals neither when nor whose it was"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.attempt); }},
-      {{"person", "text", "", "a simulation of nobody",
-        "this export's name of the person, S- of a simulated one; the same in another export only with the same "
+      {{"person", "text", "", "simulated, in no person's name",
+        "this export's name for the person, S- for a simulated one; the same in another export only with the same "
         "key"},
        [](CsvLine& line, const Facts& f) { f.names.person ? line.text(*f.names.person) : line.nothing(); }},
-      {{"person_attempt", "integer", "", "a simulation of nobody",
-        "which of the person's attempts in the library, from 1, whatever the case"},
+      {{"person_attempt", "integer", "", "simulated, in no person's name",
+        "number of the attempt among the person's in the library, from 1, across all cases"},
        [](CsvLine& line, const Facts& f) {
          f.person_attempt ? line.whole(std::int64_t{*f.person_attempt}) : line.nothing();
        }},
-      {{"days_since_first", "number", "d", "a simulation of nobody",
+      {{"days_since_first", "number", "d", "simulated, in no person's name",
         "from the start of the person's first attempt in the library to this one's; no date is exported"},
        [](CsvLine& line, const Facts& f) { line.number(f.days_since_first); }},
       // Who or what moved the hands.
@@ -80,14 +80,14 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
          f.row->synthetic() ? line.whole(std::uint64_t{f.row->seed}) : line.nothing();
        }},
       // The case.
-      {{"case", "text", "", "", "this export's name of the case; its title is somebody's words and stays"},
+      {{"case", "text", "", "", "this export's name for the case; its title is somebody's words and is left out"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.case_id); }},
       {{"case_version", "integer", "", "", "version of the case within its family, from 1"},
        [](CsvLine& line, const Facts& f) { line.whole(std::int64_t{f.of_case->version}); }},
       {{"case_origin", "text", "", "", "import: a CT; phantom:VERSION: built in"},
        [](CsvLine& line, const Facts& f) { line.text(f.of_case->origin); }},
       // The target.
-      {{"target", "text", "", "", "this export's name of the lesion that was the target"},
+      {{"target", "text", "", "", "this export's name for the lesion that was the target"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.target); }},
       {{"target_x_mm", "number", "mm", "", "the target's centre, LPS"},
        [](CsvLine& line, const Facts& f) { line.number(f.row->lesion.center_lps_mm.x); }},
@@ -100,7 +100,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
       // The guidance.
       {{"modality", "text", "", "", "mpr: a CT slice under the probe; ultrasound; xray: fluoroscopy"},
        [](CsvLine& line, const Facts& f) { line.text(casedb::name_of(f.row->picture.modality)); }},
-      {{"approach", "text", "", "", "in_plane or out_of_plane, of needle to picture; says nothing under xray"},
+      {{"approach", "text", "", "", "in_plane or out_of_plane, of needle to picture; meaningless under xray"},
        [](CsvLine& line, const Facts& f) { line.text(base::name_of(cases::kApproachNames, f.row->approach)); }},
       {{"probe", "text", "", kNotInUse, "ultrasound: its name"},
        [](CsvLine& line, const Facts& f) {
@@ -128,15 +128,15 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
       {{"dead_tip_mm", "number", "mm", "no core needle", "from the notch's end to the tip"},
        [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.dead_tip_mm); }},
       // How long it took, and how it ended.
-      {{"duration_s", "number", "s", "", "how long was recorded"},
+      {{"duration_s", "number", "s", "", "length of the recording"},
        [](CsvLine& line, const Facts& f) { line.number(f.row->duration_s); }},
       {{"end", "text", "", "stored before it was kept",
-        "fired, stopped, time_limit, device_lost, or interrupted (the program was gone)"},
+        "fired, stopped, time_limit, device_lost, or interrupted (the program ended)"},
        [](CsvLine& line, const Facts& f) {
          f.row->end ? line.text(casedb::name_of(*f.row->end)) : line.nothing();
        }},
-      {{"away_s", "number", "s", "it was not interrupted and gone on with, or for how long is not known",
-        "how long it lay interrupted, by the wall's clock, before somebody went on with it"},
+      {{"away_s", "number", "s", "it was not interrupted and resumed, or for how long is not known",
+        "how long it was interrupted, by the wall clock, before somebody resumed it"},
        [](CsvLine& line, const Facts& f) { line.number(f.row->away_s); }},
       // What recorded it.
       {{"program_version", "text", "", "", "of the program that recorded it"},
@@ -182,9 +182,9 @@ const std::vector<Column<StepFact>>& step_columns() {
       {{"step", "text", "", "", steps}, [](CsvLine& line, const Fact& f) { line.text(f.step->id); }},
       {{"version", "integer", "", "", "of the steps' meaning; the newest that is stored"},
        [](CsvLine& line, const Fact& f) { line.whole(std::int64_t{f.step->version}); }},
-      {{"state", "text", "", "", "done, skipped, violated, or not_asked (it says nothing here)"},
+      {{"state", "text", "", "", "done, skipped, violated, or not_asked (it does not apply here)"},
        [](CsvLine& line, const Fact& f) { line.text(assessment::name_of(f.step->state)); }},
-      {{"t_s", "number", "s", "it was not done, or not asked",
+      {{"t_s", "number", "s", "it was not done, or not asked for",
         "when it was done (skipped: too late) or violated, since the attempt began"},
        [](CsvLine& line, const Fact& f) { line.number(f.step->t_s); }},
       {{"reason", "text", "", "it was asked", "why it was not"},
@@ -216,11 +216,11 @@ const std::vector<Column<PoseFact>>& pose_columns() {
        [](CsvLine& line, const Fact& f) { line.number(f.pose.needle_direction.y); }},
       {{"needle_dir_z", "number", "", "", "from hub to tip, unit vector, LPS"},
        [](CsvLine& line, const Fact& f) { line.number(f.pose.needle_direction.z); }},
-      {{"probe_origin_x_mm", "number", "mm", "", "middle of the probe's face, LPS; says nothing under xray"},
+      {{"probe_origin_x_mm", "number", "mm", "", "middle of the probe's face, LPS; meaningless under xray"},
        [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_origin_lps_mm.x); }},
-      {{"probe_origin_y_mm", "number", "mm", "", "middle of the probe's face, LPS; says nothing under xray"},
+      {{"probe_origin_y_mm", "number", "mm", "", "middle of the probe's face, LPS; meaningless under xray"},
        [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_origin_lps_mm.y); }},
-      {{"probe_origin_z_mm", "number", "mm", "", "middle of the probe's face, LPS; says nothing under xray"},
+      {{"probe_origin_z_mm", "number", "mm", "", "middle of the probe's face, LPS; meaningless under xray"},
        [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_origin_lps_mm.z); }},
       {{"probe_axial_x", "number", "", "", "into the body, unit vector, LPS"},
        [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_axial.x); }},
@@ -258,7 +258,7 @@ const std::vector<Column<ForceFact>>& force_columns() {
       attempt_name<Fact>(),
       {{"t_s", "number", "s", "", "since the attempt began, 100 rows a second"},
        [](CsvLine& line, const Fact& f) { line.number(f.force.t_s); }},
-      {{"needle_axial_n", "number", "N", "", "what the model of tissue asks along the needle; > 0 resists"},
+      {{"needle_axial_n", "number", "N", "", "what the tissue model commands along the needle; > 0 resists"},
        [](CsvLine& line, const Fact& f) { line.number(f.force.needle_axial_n); }},
       {{"needle_lateral_n", "number", "N", "", "the same across the needle, 0 or more"},
        [](CsvLine& line, const Fact& f) { line.number(f.force.needle_lateral_n); }},
@@ -334,7 +334,7 @@ const std::vector<Column<FrameFact>>& frame_columns() {
        [](CsvLine& line, const Fact& f) { place(line, f.console.frequency_mhz != 0.0, f.console.frequency_mhz); }},
       {{"console_slice_mm", "number", "mm", kAsTheCase, "how far beside the probe's plane a slice of the CT lies"},
        [](CsvLine& line, const Fact& f) { place(line, f.console.slice_mm != 0.0, f.console.slice_mm); }},
-      {{"console_colour_mm_s", "number", "mm/s", kOff, "colour Doppler: the speed at which it wraps around"},
+      {{"console_colour_mm_s", "number", "mm/s", kOff, "colour Doppler: the speed at which it aliases"},
        [](CsvLine& line, const Fact& f) { place(line, f.console.colour_mm_s != 0.0, f.console.colour_mm_s); }},
       {{"console_lean_deg", "number", "deg", kOff, "how far its beams leaned towards the face's last one"},
        [](CsvLine& line, const Fact& f) { place(line, f.console.colour_mm_s != 0.0, f.console.lean_deg); }},
@@ -363,9 +363,10 @@ const std::vector<Column<EventFact>>& event_columns() {
       {{"source", "text", "", "", "hand: a button; else who it came from: trainee, mentor, patient, workstation"},
        [](CsvLine& line, const Fact& f) { line.text(f.event.info->source); }},
       {{"event", "text", "", "", kinds}, [](CsvLine& line, const Fact& f) { line.text(f.event.info->kind); }},
-      {{"wall_s", "number", "s", "no pause", "how long the pause was, by the wall's clock: no time of the attempt"},
+      {{"wall_s", "number", "s", "no pause",
+        "how long the pause was, by the wall clock: not part of the attempt's time"},
        [](CsvLine& line, const Fact& f) { line.number(f.event.wall_s); }},
-      {{"length_mm", "number", "mm", "none was told with it", "the depth that was measured or planned"},
+      {{"length_mm", "number", "mm", "none was given with it", "the depth that was measured or planned"},
        [](CsvLine& line, const Fact& f) { line.number(f.event.length_mm); }},
   };
   return columns;
@@ -502,20 +503,20 @@ const std::vector<TableInfo>& raw_tables() {
     attempts.insert(attempts.end(), attempt_conditions().begin(), attempt_conditions().end());
     attempts.insert(attempts.end(), attempt_metrics().begin(), attempt_metrics().end());
     return std::vector<TableInfo>{
-        {"attempts.csv", "one row an attempt: how and under which conditions it was made, and each metric's value",
+        {"attempts.csv", "one row per attempt: how and under which conditions it was made, and each metric's value",
          std::move(attempts)},
         {"metrics.csv",
-         "one row a metric of an attempt: every stored version, with the reason where there is no "
-         "value",
+         "one row per metric of an attempt: every stored version, with the reason where there is no value",
          infos_of(metric_columns())},
-        {"events.csv", "one row an event of an attempt; of one recorded before events were kept only the buttons'",
+        {"events.csv",
+         "one row per event of an attempt; for one recorded before events were kept, only the buttons'",
          infos_of(event_columns())},
-        {"steps.csv", "one row a step of an attempt's procedure; none of attempts from before it was kept",
+        {"steps.csv", "one row per step of an attempt's procedure; none for attempts from before steps were kept",
          infos_of(step_columns())},
-        {"facts.csv", "one row an answer of a person about their experience", infos_of(fact_columns())},
+        {"facts.csv", "one row per answer of a person about their experience", infos_of(fact_columns())},
         {"poses/ATTEMPT.csv", "where needle and probe were; `seldinger score --poses` reads it as it is",
          infos_of(pose_columns())},
-        {"forces/ATTEMPT.csv", "what was to be felt; no file where nothing was", infos_of(force_columns())},
+        {"forces/ATTEMPT.csv", "the forces to be felt; no file where there were none", infos_of(force_columns())},
         {"frames/ATTEMPT.csv", "what each picture showed, and how each pulse was made", infos_of(frame_columns())}};
   }();
   return tables;
@@ -568,32 +569,21 @@ std::string raw_readme() {
       "procedure.\n\n";
   for (const TableInfo& table : raw_tables()) text += table.file + ": " + table.what + "\n";
   text +=
-      "data_dictionary.csv: every column of every file: type, unit, when it is empty, what it means; of a metric "
-      "also "
-      "how people are compared by it: which way is better, its scale, what an attempt without an endpoint counts "
-      "as, "
-      "how a person's attempts become one value (those with procedure_performed = 1); and what it is of people in "
-      "an "
-      "export without key and study\n"
-      "datapackage.json: the tables, their columns' types and what is missing, for R's and Python's "
-      "frictionless\n"
-      "Where they were asked for: export.sqlite, all tables in one file; slicer, points, ways and needles for 3D "
-      "Slicer; xapi.json, statements for a learning record store; motion-bids, the needle's poses as a BIDS data "
-      "set\n\n"
-      "CSV as RFC 4180: UTF-8, comma, '.' decimals, LF, header in the first line. Numbers read back bit for bit. "
-      "An "
-      "empty cell is a missing value and never 0. Text that a spreadsheet would take for a formula begins with an "
-      "apostrophe. Lengths in mm, coordinates LPS (x to the patient's left, y to the back, z to the head), times "
-      "in "
-      "seconds.\n\n"
-      "Made without --key and --study, numbers of people's attempts (synthetic = 0) have two significant digits, "
-      "days "
-      "are whole, and there are no files of their poses, forces and frames: good for trying an analysis and for "
-      "teaching, not for a result. Those who hold two exports, rounded or not, can still join them by their "
-      "values: "
-      "keep this folder as personal data.\n\n"
-      "Names of attempts, people, cases and targets are made for this export. Rows with synthetic = 1 come from "
-      "simulated operators: leave them out of every statement about people.\n";
+      "data_dictionary.csv: every column of every file: type, unit, when it is empty, what it means; for a metric "
+      "also how people are compared by it: which way is better, its scale, what an attempt without an endpoint "
+      "counts as, how a person's attempts become one value (those with procedure_performed = 1); and what people's "
+      "values become in an export without key and study\ndatapackage.json: the tables, their columns' types and "
+      "when a cell is empty, for R's and Python's frictionless\nIf they were asked for: export.sqlite, all tables "
+      "in one file; slicer, points, ways and needles for 3D Slicer; xapi.json, statements for a learning record "
+      "store; motion-bids, the needle's poses as a BIDS data set\n\nCSV as RFC 4180: UTF-8, comma, '.' decimals, "
+      "LF, header in the first line. Numbers read back bit for bit. An empty cell is a missing value and never 0. "
+      "Text that a spreadsheet would take for a formula begins with an apostrophe. Lengths in mm, coordinates LPS "
+      "(x to the patient's left, y to the back, z to the head), times in seconds.\n\nMade without --key and "
+      "--study, numbers of people's attempts (synthetic = 0) have two significant digits, days are whole, and "
+      "there are no files of their poses, forces and frames: good for trying an analysis and for teaching, not for "
+      "a result. Those who hold two exports, rounded or not, can still join them by their values: keep this folder "
+      "as personal data.\n\nNames of attempts, people, cases and targets are made for this export. Rows with "
+      "synthetic = 1 come from simulated operators: leave them out of every statement about people.\n";
   return text;
 }
 

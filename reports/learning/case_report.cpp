@@ -121,9 +121,9 @@ std::string advice_text(const CaseNumbers& numbers) {
   if (numbers.last.high <= kHopeless) return "Change or retire: hardly anybody passes, even at the last attempt";
   const auto& interval = numbers.discrimination.ci95;
   if (interval && interval->high < kTellsApart)
-    return "Change or retire: it does not tell persons apart as the others do";
-  if (!interval) return "Keep for now: nothing is known of how it goes with other cases";
-  return interval->low > 0.0 ? "Keep" : "Keep for now: whether it tells persons apart is open";
+    return "Change or retire: it does not separate persons as the others do";
+  if (!interval) return "Keep for now: nothing is known about how it agrees with other cases";
+  return interval->low > 0.0 ? "Keep" : "Keep for now: whether it separates persons is open";
 }
 
 }  // namespace seldinger::reports

@@ -47,8 +47,9 @@ void add_discrimination(Html& html, const statistics::Answer& answer) {
 
 void add_charts(Html& html, const CaseReport& report, const std::vector<CaseNumbers>& numbers) {
   IntervalChart easy{
-      "Share of persons that pass each case at their first attempt", "passed at the first attempt", {}, 0.0, 1.0};
-  IntervalChart apart{"How far each case goes with the others", "correlation with the other cases", {}, -1.0, 1.0};
+      "Share of persons who pass each case at their first attempt", "passed at the first attempt", {}, 0.0, 1.0};
+  IntervalChart apart{
+      "How well each case agrees with the others", "correlation with the other cases", {}, -1.0, 1.0};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const CaseNumbers& one = numbers[i];
     if (one.persons == 0 || !told(report, one.persons)) continue;
@@ -62,14 +63,13 @@ void add_charts(Html& html, const CaseReport& report, const std::vector<CaseNumb
   if (!easy.rows.empty())
     html.raw("<h2>Difficulty</h2>\n")
         .add(interval_chart(easy))
-        .raw("<p class=\"note\">The left end is hard, the right end easy. A person counts once.</p>\n");
+        .raw("<p class=\"note\">Left is hard, right is easy. A person counts once.</p>\n");
   if (!apart.rows.empty())
     html.raw("<h2>Discrimination</h2>\n")
         .add(interval_chart(apart))
         .raw(
-            "<p class=\"note\">Who passes more often here passes more often elsewhere: at the right end. Around 0 "
-            "the "
-            "case measures something else than the others, or chance.</p>\n");
+            "<p class=\"note\">At the right end, those who pass more often here pass more often elsewhere. Around "
+            "0 the case measures something other than the rest, or chance.</p>\n");
 }
 
 void add_table(Html& html, const CaseReport& report, const std::vector<CaseNumbers>& numbers) {
@@ -98,10 +98,8 @@ void add_table(Html& html, const CaseReport& report, const std::vector<CaseNumbe
   }
   html.raw(
       "</tbody></table></div>\n<p class=\"note\">What to do is a suggestion, by judgement: change or retire a case "
-      "that "
-      "nine in ten pass at the first attempt or that one in ten passes at the last, by the interval’s near end, "
-      "and "
-      "one whose correlation with the others stays below 0.2.</p>\n");
+      "that nine in ten pass at the first attempt or that one in ten passes at the last, by the nearer end of the "
+      "interval, and one whose correlation with the others stays below 0.2.</p>\n");
 }
 
 void add_dependability(Html& html, const CaseReport& report) {
@@ -124,14 +122,14 @@ void add_dependability(Html& html, const CaseReport& report) {
 
 void add_planted(Html& html, const CaseReport& report) {
   const statistics::Answer answer = against_planted(report);
-  html.raw("<h2>Against what was planted</h2>\n<p>");
+  html.raw("<h2>Compared with what was planted</h2>\n<p>");
   if (!answer.estimate) {
     html.raw("Not estimated: ")
         .text(answer.estimable() ? "the values do not differ"
                                  : statistics::find_reason(answer.reason.c_str())->words);
   } else {
     html.raw(
-        "Persons’ share of passes goes with the abilities that were planted in them, before practice, by "
+        "Persons’ share of passes follows the abilities that were planted in them, before practice, with a "
         "Spearman’s ρ of ");
     html.text(number_text(*answer.estimate, 2));
     if (answer.ci95)

@@ -123,7 +123,7 @@ void add_curve(Html& html, const LearnerItem& item, const assessment::Criterion&
     html.raw("<p>Levels off at ").text(assessment::plain_value(*further(answer, "plateau"), info.unit));
     const auto low = further(answer, "plateau_low"), high = further(answer, "plateau_high");
     if (low && high) html.raw(" (95 % interval ").text(interval_text(statistics::Interval{*low, *high})).raw(")");
-    html.raw("; half of the way there at attempt ").text(digits_text(*further(answer, "half_way_at")));
+    html.raw("; half-way there at attempt ").text(digits_text(*further(answer, "half_way_at")));
     html.raw(", by ").text(answer.method).raw(".</p>\n");
   }
 }
@@ -186,7 +186,7 @@ void add_proficiency(Html& html, LearnedCourse& course) {
   html.text(share_text(rule.share)).raw(" or more of attempts pass now: ");
   html.text(number_text(*further(answer, "passes"), 0) + " of the last " +
             number_text(*further(answer, "attempts"), 0));
-  html.raw(" passed, so that the share is between ").text(share_text(*further(answer, "share_low")));
+  html.raw(" passed, so the share is between ").text(share_text(*further(answer, "share_low")));
   html.raw(" and ").text(share_text(*further(answer, "share_high"))).raw(" (95 %). The rule: proficient from ");
   html.text(number_text(rule.sure, 1)).raw(" on, over the last ").text(std::to_string(rule.last));
   html.raw(" graded attempts.");

@@ -45,7 +45,7 @@ void add_scale(Html& html, const StandardReport& report, const std::vector<const
   if (holds != nullptr)
     html.raw("<strong>").text(cut_text(*holds)).raw("</strong> holds. ").text(cut_standing_text(*holds)).raw(". ");
   else
-    html.raw("None is frozen yet: a director who did not propose it freezes one. ");
+    html.raw("None is frozen yet: a director who did not propose it can freeze one. ");
   html.text(rule_text(report, first.metric_id)).raw("</p>\n");
   html.raw(
       "<table class=\"outcomes\"><thead><tr><th scope=\"col\">Method</th><th scope=\"col\" "
@@ -101,9 +101,9 @@ std::string standard_report_page(const StandardReport& report) {
   if (!report.cuts.empty())
     html.raw(
         "<p class=\"note\">The filled mark is the cut that holds. Methods that disagree by more than their "
-        "intervals "
-        "answer different questions: which one counts is a decision, and whoever takes it signs for it.</p>\n");
-  html.raw("<h2>What passing one case tells</h2>\n<p>")
+        "intervals answer different questions: which one counts is a decision, and whoever makes it signs for "
+        "it.</p>\n");
+  html.raw("<h2>What passing one case shows</h2>\n<p>")
       .text(dependability_text(report.dependability, casedb::Learners::people))
       .raw("</p>\n");
   return learning_page(report.title + " – standard", html);

@@ -42,7 +42,9 @@ void add_last_look(Html& html, const AnswerSection& view) {
   if (missing == 0) {
     html.raw("<p class=\"note\">Every question has an answer.</p>\n");
   } else {
-    html.raw("<p>Not answered, which you may leave so:</p>\n<ul class=\"open-items\">\n").add(open).raw("</ul>\n");
+    html.raw("<p>Not answered; you may leave these blank:</p>\n<ul class=\"open-items\">\n")
+        .add(open)
+        .raw("</ul>\n");
   }
   html.raw("<p>Once sent, your answers cannot be changed.</p>\n");
 }
@@ -62,8 +64,7 @@ std::string answer_start_page(const AnswerStart& start) {
   html.raw(
       "<p><label for=\"code\">Code</label>\n<input id=\"code\" name=\"code\" autocomplete=\"off\" "
       "autocapitalize=\"characters\" maxlength=\"8\" required></p>\n<p class=\"why\">Six letters and digits, as "
-      "they "
-      "were told to you.</p>\n<p><button>Next</button></p>\n</form>\n</div>\n");
+      "given to you.</p>\n<p><button>Next</button></p>\n</form>\n</div>\n");
   return page("Answer a questionnaire", {}, html);
 }
 
@@ -108,7 +109,7 @@ std::string answer_section_page(const AnswerSection& view) {
   Html html;
   html.raw("<div class=\"answering\">\n<p class=\"sub\">").text(form.title).raw(" · ");
   if (last)
-    html.raw("last look");
+    html.raw("last check");
   else
     html.text(std::to_string(view.section + 1)).raw(" of ").text(std::to_string(sections.size()));
   html.raw("</p>\n<progress max=\"").text(std::to_string(sections.size())).raw("\" value=\"");

@@ -114,7 +114,8 @@ void add_metrics(Html& html, const AttemptView& view) {
     html.raw("<p class=\"note\">No metrics are stored with this attempt.</p>\n");
   else
     html.raw(
-        "<p class=\"note\">A name opens what it measures. All of them: <a href=\"/metrics\">metrics</a>.</p>\n");
+        "<p class=\"note\">Click a name to see what it measures. All of them: <a "
+        "href=\"/metrics\">metrics</a>.</p>\n");
   for (const std::string& group : metric_groups()) add_group(html, group, view);
   add_absent(html, row);
   html.raw("</section>\n");
@@ -133,9 +134,9 @@ void add_picture(Html& html, const AttemptView& attempt, const cases::Recording*
     html.raw("<figure><img src=\"/attempts/")
         .text(row.attempt_id)
         .raw("/picture.png\" alt=\"")
-        .text(xray         ? "The fluoroscope's last image before the trigger fell, with the needle in it"
-              : ultrasound ? "Ultrasound picture under the probe when the trigger fell"
-                           : "Grey CT plane under the probe when the trigger fell, with the needle in it")
+        .text(xray         ? "The fluoroscope's last image before the trigger was pressed, with the needle in it"
+              : ultrasound ? "Ultrasound picture under the probe when the trigger was pressed"
+                           : "Grey CT plane under the probe when the trigger was pressed, with the needle in it")
         .text(outcome == "Yes"  ? "; the target was hit"
               : outcome == "No" ? "; the target was missed"
                                 : "")
@@ -164,7 +165,7 @@ void add_picture(Html& html, const AttemptView& attempt, const cases::Recording*
   if (attempt.may_replay && recording != nullptr)
     html.raw("<p><a href=\"/attempts/")
         .text(row.attempt_id)
-        .raw("/pictures\">What was on the screen at the telling moments, and where the needle was</a></p>\n");
+        .raw("/pictures\">What was on the screen at the key moments, and where the needle was</a></p>\n");
   html.raw("</section>\n");
 }
 
@@ -188,20 +189,17 @@ void add_replay(Html& html, const casedb::AttemptRow& row) {
   html.raw("/replay.json\" data-skin=\"/attempts/").text(row.attempt_id);
   html.raw(
       "/skin.json\" hidden>\n<canvas tabindex=\"0\" role=\"img\" aria-label=\"Needle, probe and target in three "
-      "dimensions; arrow keys turn them. What is shown is told below.\"></canvas>\n"
-      "<p class=\"told\" data-told></p>\n<p class=\"said-now\" data-said role=\"status\"></p>\n<div "
-      "class=\"controls\"><button type=\"button\" data-play>Play</button>\n"
-      "<label>Time <input type=\"range\" min=\"0\" max=\"1\" value=\"0\"></label>\n"
-      "<label>Speed <select><option value=\"0.25\">¼</option><option value=\"1\" selected>1</option><option "
-      "value=\"4\">4</option></select></label>\n<span><button type=\"button\" class=\"quiet\" "
-      "data-view=\"front\">From the front</button> <button type=\"button\" class=\"quiet\" data-view=\"side\">From "
-      "the "
-      "left</button> <button type=\"button\" class=\"quiet\" data-view=\"slice\">As a CT slice</button> <button "
-      "type=\"button\" class=\"quiet\" data-zoom=\"1.5\">Larger</button> <button type=\"button\" class=\"quiet\" "
-      "data-zoom=\"0.667\">Smaller</button></span></div>\n<p class=\"note\">Blue: the picture showed the tip. "
-      "Dashed: it "
-      "did not. Net: the skin, coarsely. R right, A front, H head. A mentor’s comment appears at its "
-      "moment.</p>\n</div>\n<script src=\"/replay.js\" defer></script>\n");
+      "dimensions; arrow keys turn them. The text below says what is shown.\"></canvas>\n<p class=\"told\" "
+      "data-told></p>\n<p class=\"said-now\" data-said role=\"status\"></p>\n<div class=\"controls\"><button "
+      "type=\"button\" data-play>Play</button>\n<label>Time <input type=\"range\" min=\"0\" max=\"1\" "
+      "value=\"0\"></label>\n<label>Speed <select><option value=\"0.25\">¼</option><option value=\"1\" "
+      "selected>1</option><option value=\"4\">4</option></select></label>\n<span><button type=\"button\" "
+      "class=\"quiet\" data-view=\"front\">From the front</button> <button type=\"button\" class=\"quiet\" "
+      "data-view=\"side\">From the left</button> <button type=\"button\" class=\"quiet\" data-view=\"slice\">As a "
+      "CT slice</button> <button type=\"button\" class=\"quiet\" data-zoom=\"1.5\">Larger</button> <button "
+      "type=\"button\" class=\"quiet\" data-zoom=\"0.667\">Smaller</button></span></div>\n<p class=\"note\">Blue: "
+      "the picture showed the tip. Dashed: it did not. Net: the skin, coarsely. R right, A front, H head. A "
+      "mentor’s comment appears at its moment.</p>\n</div>\n<script src=\"/replay.js\" defer></script>\n");
 }
 
 void add_course(Html& html, const AttemptView& attempt, const cases::Recording* recording) {

@@ -36,9 +36,8 @@ void add_row(Html& html, const CohortView& view) {
 std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> cohorts) {
   Html html;
   html.raw(
-          "<h1>Cohorts</h1>\n<p class=\"sub\">Your own by name; of others counts only, as they were at the end of "
-          "a "
-          "week, once at least ")
+          "<h1>Cohorts</h1>\n<p class=\"sub\">Your own by name; for others counts only, as they were at the end of "
+          "a week, once at least ")
       .text(std::to_string(casedb::kSmallestCell))
       .raw(" people have made them, or their last change.</p>\n");
   if (cohorts.empty()) {

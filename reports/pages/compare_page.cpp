@@ -52,16 +52,14 @@ void add_count_row(Html& html, const Comparison& comparison, std::string_view la
 void add_criteria(Html& html, const Comparison& comparison) {
   html.raw(
       "<div class=\"wide compare\" role=\"region\" tabindex=\"0\" aria-label=\"Criteria\"><table>\n<caption>Who "
-      "passes, "
-      "and by which criterion: how many met it, then the median "
-      "with least and most</caption>\n");
+      "passes, and by which criterion: how many met it, then the median with lowest and highest</caption>\n");
   add_head(html, comparison, "Criterion");
   html.raw("<tbody>\n");
   add_count_row(html, comparison, "Attempts",
                 [](const ComparedGroup& group) { return std::to_string(group.attempts.size()); });
   add_count_row(html, comparison, "Left out: procedure not performed",
                 [](const ComparedGroup& group) { return std::to_string(group.not_performed); });
-  add_count_row(html, comparison, "Passed, of those that are graded",
+  add_count_row(html, comparison, "Passed, of those graded",
                 [](const ComparedGroup& group) { return of(group.passed, group.gradable); });
   add_count_row(html, comparison, "With a critical error",
                 [](const ComparedGroup& group) { return of(group.with_critical_errors, group.gradable); });
@@ -96,9 +94,9 @@ void add_criteria(Html& html, const Comparison& comparison) {
 void add_metrics(Html& html, const Comparison& comparison) {
   html.raw(
       "<details open><summary>Every metric</summary>\n<div class=\"wide compare\" role=\"region\" tabindex=\"0\" "
-      "aria-label=\"Metrics\"><table>\n<caption>Median (of rare events the mean), and least to "
-      "most; of a yes and no how many. Of attempts in which the procedure was performed; who neither fired nor "
-      "deferred counts as the worst where it says so</caption>\n");
+      "aria-label=\"Metrics\"><table>\n<caption>Median (of rare events the mean), and lowest to highest; for yes "
+      "or no, how many. Attempts in which the procedure was performed; one neither fired nor deferred counts as "
+      "the worst where it says so</caption>\n");
   add_head(html, comparison, "Metric");
   html.raw("<tbody>\n");
   for (std::size_t i = 0; i < comparison.metrics.size(); ++i) {
@@ -117,7 +115,7 @@ void add_metrics(Html& html, const Comparison& comparison) {
 }
 
 void add_debriefs(Html& html, const Comparison& comparison) {
-  html.raw("<section>\n<h2>What each attempt was told</h2>\n<div class=\"columns\">\n");
+  html.raw("<section>\n<h2>Feedback on each attempt</h2>\n<div class=\"columns\">\n");
   for (const ComparedGroup& group : comparison.groups) {
     html.raw("<div>\n<h3>").name(group_label(group)).raw("</h3>\n");
     for (const ComparedAttempt& attempt : group.attempts) {
@@ -182,7 +180,7 @@ std::string compare_page(const casedb::Comparison& comparison, std::string_view 
                                      [](const ComparedGroup& group) { return !group.person_id; });
   if (simulated)
     html.raw(
-        "<p class=\"note\">Simulated operators test the software. They set no standard, and that they differ says "
+        "<p class=\"note\">Simulated operators test the software. They set no standard, and their differences say "
         "nothing about validity.</p>\n");
   html.raw("<p class=\"note\">").text(experts_text(comparison.experts));
   if (comparison.experts.standard()) html.text(" " + bands_note());

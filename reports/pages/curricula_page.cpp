@@ -65,7 +65,7 @@ std::string curricula_page(const Visitor& visitor, std::span<const CurriculumVie
   Html html;
   html.raw("<h1>Curriculum</h1>\n");
   const bool learns = visitor.role == "trainee";  // of whom what is left stands with their progress
-  html.raw("<p class=\"sub\">Proficient is two passes running. What was reached stays.");
+  html.raw("<p class=\"sub\">Proficient is two passes running. What was reached is kept.");
   if (learns) html.raw(" How far you are, and what is due: <a href=\"/progress\">progress</a>.");
   html.raw("</p>\n");
   if (curricula.empty())

@@ -8,8 +8,7 @@ std::string log_ins_page(const Visitor& visitor, const std::vector<DelayedLogIn>
   Html html;
   html.raw(
       "<h1>Log-ins</h1>\n<p>After five wrong passwords for a name, the next try from the same place has to wait, "
-      "up to "
-      "a minute. A browser that has been logged in under that name waits for its own failures only.</p>\n");
+      "up to a minute. A browser that has been logged in under that name waits only for its own failures.</p>\n");
   if (delayed.empty()) html.raw("<p>Nobody has to wait now.</p>\n");
   for (const DelayedLogIn& one : delayed) {
     html.raw("<form method=\"post\" action=\"/log-ins\"><input type=\"hidden\" name=\"token\" value=\"")

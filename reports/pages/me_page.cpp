@@ -111,7 +111,7 @@ std::string me_page(const Visitor& visitor, const AboutMe& about, const Told& to
   }
   html.raw(
       "</section>\n<section>\n<h2>Your experience</h2>\n<p class=\"note\">Studies compare people by these facts. "
-      "Leave open what you do not want to say; an answer holds from the day you give it.</p>\n");
+      "Leave blank what you do not want to say; an answer counts from the day you give it.</p>\n");
   begin_form(html, visitor, "/me/facts");
   const auto last = casedb::newest_facts(about.facts);
   for (const casedb::FactInfo& fact : casedb::fact_infos()) {

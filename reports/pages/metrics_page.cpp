@@ -10,8 +10,8 @@ namespace seldinger::reports {
 std::string metrics_page(const Visitor& visitor) {
   Html html;
   html.raw(
-      "<h1>Metrics</h1>\n<p class=\"sub\">What is measured of an attempt, and how. A value without a number says "
-      "why; it is never shown as 0. A value that is stored keeps the definition it was measured by.</p>\n");
+      "<h1>Metrics</h1>\n<p class=\"sub\">What is measured in an attempt, and how. A value without a number says "
+      "why; it is never shown as 0. A stored value keeps the definition it was measured by.</p>\n");
   html.raw("<nav class=\"jumps\" aria-label=\"Groups of metrics\">");
   Html sections;
   for (const std::string& group : metric_groups()) {

@@ -86,9 +86,8 @@ std::string rating_start_page(const std::string& token, const std::string& probl
   html.raw(
       "<p><label for=\"key\">Your key</label>\n<input id=\"key\" name=\"key\" autocomplete=\"off\" "
       "autocapitalize=\"none\" spellcheck=\"false\" maxlength=\"20\" required></p>\n<p class=\"why\">Twelve "
-      "letters "
-      "and "
-      "digits that you alone were given.</p>\n<p><button>Open the bench</button></p>\n</form>\n</div>\n");
+      "letters and digits that only you were given.</p>\n<p><button>Open the "
+      "bench</button></p>\n</form>\n</div>\n");
   return page("Rate replays", {}, html);
 }
 
@@ -107,13 +106,11 @@ std::string rating_bench_page(const casedb::RatingBench& bench) {
   html.raw(" of ").text(std::to_string(bench.tasks.size())).raw(" sent.</p>\n");
   if (!bench.introduction.empty()) html.raw("<p>").text(bench.introduction).raw("</p>\n");
   html.raw(
-      "<p class=\"note\">You are not told whose a replay is, and its number tells nothing: each rater has an order "
-      "of "
-      "their own. You may meet a replay twice. Please rate in this order, and speak with nobody about it until all "
-      "have "
-      "finished.</p>\n");
+      "<p class=\"note\">You cannot see whose a replay is, and its number reveals nothing: each rater has an order "
+      "of their own. You may meet a replay twice. Please rate in this order, and talk to nobody about it until all "
+      "have finished.</p>\n");
   if (!bench.round.is_open())
-    html.raw("<p class=\"problem\" role=\"alert\">The round is closed: nothing is taken any more.</p>\n");
+    html.raw("<p class=\"problem\" role=\"alert\">The round is closed: no more ratings are accepted.</p>\n");
   else if (next != bench.tasks.end())
     html.raw("<p><a class=\"button\" href=\"/rate/replay?n=")
         .text(std::to_string(next->number))
@@ -121,7 +118,7 @@ std::string rating_bench_page(const casedb::RatingBench& bench) {
         .text(std::to_string(next->number))
         .raw("</a></p>\n");
   else
-    html.raw("<p><strong>All is sent. Thank you.</strong></p>\n");
+    html.raw("<p><strong>Everything is sent. Thank you.</strong></p>\n");
   if (calibrates) {
     html.raw(
         "<h2>To calibrate</h2>\n<p>Their scores were agreed on; they are shown when you have sent yours.</p>\n");
@@ -146,7 +143,7 @@ std::string rating_page(const RatingView& view) {
   if (shown.task.sent)
     add_sent(html, shown);
   else if (!shown.round.is_open())
-    html.raw("<p class=\"problem\" role=\"alert\">The round is closed: nothing is taken any more.</p>\n");
+    html.raw("<p class=\"problem\" role=\"alert\">The round is closed: no more ratings are accepted.</p>\n");
   else
     add_form(html, view);
   html.raw("</div>\n</div>\n<script src=\"/film.js\" defer></script>\n");

@@ -43,7 +43,7 @@ std::string board_page(const casedb::Workshop& workshop, const std::vector<cased
   html.raw("<div class=\"board\">\n<h1>").name(workshop.title).raw("</h1>\n<p class=\"sub\">");
   html.text(std::to_string(through)).raw(" of ").text(std::to_string(all.size()));
   html.text(all.size() == 1 ? " person is" : " people are").raw(" through all stations.");
-  if (!workshop.is_open()) html.raw(" Nobody comes any more.");
+  if (!workshop.is_open()) html.raw(" No more people are coming.");
   html.raw("</p>\n");
   add_stations(html, workshop, all);
   html.raw("<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Number</th>");

@@ -97,7 +97,8 @@ void add_timeline(Html& html, const ReplaySheet& sheet) {
                     [](const LaneMark& mark) { return !mark.step_id.empty(); }))
       html.raw(
           "<p class=\"soft\"><span class=\"dot step\">done</span> <span class=\"dot\">too late</span> <span "
-          "class=\"dot violated\">wrong</span> (said): no action can show it. A name opens what the step is.</p>");
+          "class=\"dot violated\">wrong</span> (said): no action can show it. Click a name to see what the step "
+          "is.</p>");
     html.raw("<ol class=\"events\">\n");
     for (const LaneMark& mark : lane.marks) {
       const std::string until = mark.t1_s > mark.t0_s ? "–" + number_text(mark.t1_s, 1) : "";
@@ -126,7 +127,7 @@ void add_metrics(Html& html, const casedb::AttemptRow& row) {
     }
     if (!rows.empty()) html.raw("<table><caption>").text(group).raw("</caption>\n").add(rows).raw("</table>\n");
   }
-  html.raw("</div>\n<p class=\"soft\">A name opens what it measures.</p></section>\n");
+  html.raw("</div>\n<p class=\"soft\">Click a name to see what it measures.</p></section>\n");
 }
 
 }  // namespace

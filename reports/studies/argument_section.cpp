@@ -9,10 +9,10 @@ namespace {
 
 namespace study = assessment::study;
 
-constexpr std::string_view kQuestions[] = {"Do the numbers record what was done?",
-                                           "Would other attempts, cases and days give the same?",
-                                           "Do they tell of what the person does with patients?",
-                                           "Is what is decided by them justified?"};  // in the order of Inference
+constexpr std::string_view kQuestions[] = {
+    "Do the numbers record what was done?", "Would other attempts, cases and days give the same?",
+    "Do they say what the person does with patients?",
+    "Are the decisions based on them justified?"};  // in the order of Inference
 
 // What this study itself adds to a claim.
 std::string added(const ValidityReport& report, study::Inference inference) {
@@ -45,10 +45,10 @@ std::vector<std::string> rebuttals_of_data(const ValidityReport& report, study::
   if (inference == study::Inference::generalisation && report.case_titles.size() > 0) {
     std::set<std::string> cases;
     for (const study::Outcome& one : plan.primary) cases.insert(one.case_id);
-    if (cases.size() == 1) all.emplace_back("One case: nothing tells how far another would agree.");
+    if (cases.size() == 1) all.emplace_back("One case: nothing shows how far another would agree.");
   }
   if (inference == study::Inference::extrapolation)
-    all.emplace_back("Nobody was watched with patients: groups that differ need not differ there.");
+    all.emplace_back("Nobody was observed with patients: groups that differ here need not differ there.");
   if (inference == study::Inference::implications && smallest < 12)
     all.emplace_back("Few people: " + std::to_string(smallest) + " in the smallest group.");
   return all;
@@ -62,7 +62,7 @@ Html argument_section(const ValidityReport& report) {
   html.raw(
       "<section id=\"argument\">\n<h2>1 The argument</h2>\n<dl class=\"use\"><dt>What the numbers are "
       "for</dt><dd>");
-  html.text(plan.intended_use).raw("</dd><dt>What is decided by them</dt><dd>").text(plan.decision);
+  html.text(plan.intended_use).raw("</dd><dt>What they decide</dt><dd>").text(plan.decision);
   html.raw(
       "</dd></dl>\n<table class=\"argument\"><caption>Kane’s four inferences, each a claim that can fall"
       "</caption>\n<thead><tr><th scope=\"col\">Inference</th><th scope=\"col\">Claim</th><th scope=\"col\">"

@@ -72,11 +72,10 @@ constexpr ChecklistItem kChecklist[] = {
 Html checklist_section(const ValidityReport& report) {
   Html html;
   html.raw(
-      "<section id=\"checklist\">\n<h2>8 CONSORT and STROBE, simulation</h2>\n<table class=\"checklist\"><caption>"
-      "After Cheng et al., Advances in Simulation 1:25 (2016): where it is told, or missing and left to the authors"
-      "</caption>\n<thead><tr><th scope=\"col\">Item</th><th scope=\"col\">What</th><th "
-      "scope=\"col\">Where</th></tr>"
-      "</thead><tbody>\n");
+      "<section id=\"checklist\">\n<h2>8 CONSORT and STROBE, simulation</h2>\n<table "
+      "class=\"checklist\"><caption>After Cheng et al., Advances in Simulation 1:25 (2016): where it is reported, "
+      "or missing and left to the authors</caption>\n<thead><tr><th scope=\"col\">Item</th><th "
+      "scope=\"col\">What</th><th scope=\"col\">Where</th></tr></thead><tbody>\n");
   for (const ChecklistItem& one : kChecklist) {
     const std::string where = one.where(report);
     html.raw("<tr><th scope=\"row\">").text(one.topic).raw("</th><td>").text(one.asked).raw("</td><td>");

@@ -10,8 +10,8 @@ namespace {
 Html blinded(const ValidityReport& report) {
   Html html;
   html.raw(
-      "<p>The plan is a <strong>draft</strong>: until it is frozen nobody who works on the study is told an "
-      "outcome by group. Of all together:</p>\n<ul><li>");
+      "<p>The plan is a <strong>draft</strong>: until it is frozen nobody who works on the study sees an outcome "
+      "by group. All together:</p>\n<ul><li>");
   html.text(std::to_string(report.blinded.consenting)).raw(" people consent</li><li>");
   html.text(std::to_string(report.blinded.with_attempts))
       .raw(" of them have made attempts at the plan’s cases</li><li>");
@@ -35,16 +35,15 @@ Html conclusions_section(const ValidityReport& report) {
         "</p>\n");
   }
   html.add(outcome_table(report.result.primary, alpha, true,
-                         "Primary outcomes: these alone bear conclusions, at α = " + digits_text(alpha) +
+                         "Primary outcomes: conclusions rest on these alone, at α = " + digits_text(alpha) +
                              " for all of them together (Holm)"));
   html.raw(
       "<p class=\"note\">The square is the estimate, the line its 95 % interval, the dashed line no difference");
   if (draws_worthwhile(report.result.primary))
     html.raw("; the grey band holds differences smaller than the smallest worthwhile one");
   html.raw(
-      ". P is the chance that one of the first "
-      "group has the larger value than one of the second, ties half. “Would have been found”: with 80 % power at "
-      "α = 0.05, one test, two-sided.</p>\n");
+      ". P is the chance that somebody of the first group has a larger value than somebody of the second, ties "
+      "counting half. “Would have been found”: with 80 % power at α = 0.05, one test, two-sided.</p>\n");
   return html.add(sensitivity_table(report.result.primary)).raw("</section>\n");
 }
 

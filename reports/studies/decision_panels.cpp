@@ -86,13 +86,12 @@ Html internal_structure_panel(const ValidityReport& report) {
     html.text(number_or_dash(further(answer, "mdc95"), unit)).raw("</td></tr>\n");
   }
   return html.raw(
-      "</tbody></table></div>\n<p class=\"note\">Of people who have two attempts with a value, both groups "
-      "together: "
-      "groups that differ raise it. Attempts between which somebody learns lower it.</p>\n</article>\n");
+      "</tbody></table></div>\n<p class=\"note\">People who have two attempts with a value, both groups together: "
+      "groups that differ raise it, learning between the attempts lowers it.</p>\n</article>\n");
 }
 
 Html consequences_panel(const ValidityReport& report) {
-  Html html = evidence_panel("Consequences", "What is decided by the numbers, and for whom");
+  Html html = evidence_panel("Consequences", "What the numbers decide, and for whom");
   Html rows;
   for (const study::Compared& one : report.result.primary) {
     const auto mark = pass_mark_of(report.marks, one.outcome);
@@ -109,7 +108,7 @@ Html consequences_panel(const ValidityReport& report) {
   if (rows.empty())
     return html.raw(
         "<p><strong>None yet.</strong> No case of this plan has a pass mark for a primary outcome, so no false "
-        "passes or failures can be told.</p>\n</article>\n");
+        "passes or failures can be estimated.</p>\n</article>\n");
   return html
       .raw(
           "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Pass mark</th><th scope=\"col\" "

@@ -12,9 +12,9 @@ void add_box(Html& html, std::string_view words, std::size_t count) {
 Html baseline_table(const ValidityReport& report) {
   Html html;
   const std::vector<BaselineRow> rows = baseline_of(report.plan.plan, report.backgrounds);
-  if (rows.empty()) return html.raw("<p>Nobody stated their experience before they were enrolled.</p>\n");
+  if (rows.empty()) return html.raw("<p>Nobody stated their experience before enrolment.</p>\n");
   html.raw(
-      "<table><caption>What people stated of themselves before they were enrolled: median (quartiles); withheld of "
+      "<table><caption>What people stated about themselves before enrolment: median (quartiles); withheld for "
       "fewer than 5</caption>\n<thead><tr><th scope=\"col\">Stated</th>");
   for (const auto& group : report.plan.plan.groups) html.raw("<th scope=\"col\">").text(group.name).raw("</th>");
   html.raw("</tr></thead><tbody>\n");
@@ -39,7 +39,7 @@ Html baseline_table(const ValidityReport& report) {
 Html flow_section(const ValidityReport& report) {
   Html html;
   html.raw("<section id=\"flow\">\n<h2>4 Who came how far</h2>\n");
-  if (!report.plan.frozen()) return html.raw("<p>Nobody is enrolled before the plan is frozen.</p>\n</section>\n");
+  if (!report.plan.frozen()) return html.raw("<p>Nobody is enrolled until the plan is frozen.</p>\n</section>\n");
   const casedb::ParticipantFlow& flow = report.flow;
   html.raw("<div class=\"flow\">\n");
   add_box(html, "consent now", flow.consenting);
@@ -47,7 +47,7 @@ Html flow_section(const ValidityReport& report) {
   html.raw("<div class=\"groups\">\n");
   for (const casedb::GroupFlow& group : flow.groups) {
     html.raw("<div class=\"group\"><h3>").text(group.name).raw("</h3>\n");
-    add_box(html, report.plan.plan.randomised ? "allocated" : "in the group by their facts", group.allocated);
+    add_box(html, report.plan.plan.randomised ? "allocated" : "in the group by their answers", group.allocated);
     add_box(html, "withdrew consent since", group.withdrew);
     add_box(html, "made an attempt at the plan’s cases", group.attempted);
     add_box(html, "analysed at the first primary outcome", group.analysed);
@@ -57,7 +57,7 @@ Html flow_section(const ValidityReport& report) {
   if (flow.unknown > 0)
     html.raw("<p>")
         .text(std::to_string(flow.unknown))
-        .raw(" who were enrolled have been erased since; nothing is known of them any more.</p>\n");
+        .raw(" who were enrolled have been erased since; nothing is known about them any more.</p>\n");
   html.add(baseline_table(report));
   bool any = false;
   for (const auto* outcomes : {&report.result.primary, &report.result.secondary})
@@ -65,9 +65,9 @@ Html flow_section(const ValidityReport& report) {
       for (const assessment::study::LeftOut& why : one.left_out) {
         if (!any)
           html.raw(
-              "<table><caption>Attempts at any of the plan’s cases that are no part of an outcome, and why; the "
-              "person stays in the analysis by their other attempts</caption>\n<thead><tr><th scope=\"col\">Outcome"
-              "</th><th scope=\"col\">Why</th><th scope=\"col\" "
+              "<table><caption>Attempts at any of the plan’s cases that are not part of an outcome, and why; the "
+              "person stays in the analysis with their other attempts</caption>\n<thead><tr><th "
+              "scope=\"col\">Outcome</th><th scope=\"col\">Why</th><th scope=\"col\" "
               "class=\"number\">Attempts</th></tr></thead><tbody>\n");
         any = true;
         html.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));

@@ -23,9 +23,9 @@ std::vector<Question> questions_of(const ValidityReport& report) {
   std::vector<Question> all;
   all.push_back({"Was the plan made before the data were seen?",
                  "It was frozen on " + utc_text(*report.plan.frozen_us) + " with the hash below; " +
-                     (report.looks.size() == 1 ? std::string("this report is the only look since.")
+                     (report.looks.size() == 1 ? std::string("this report is the only look since then.")
                                                : std::to_string(report.looks.size()) +
-                                                     " looks since are listed, this report among them.")});
+                                                     " looks since then are listed, this report among them.")});
   all.push_back({"How was the number of people chosen?",
                  std::to_string(plan.per_group) + " in each group: " + plan.stopping_rule});
   all.push_back({"Are attempts counted as if they were people?",
@@ -46,8 +46,8 @@ std::vector<Question> questions_of(const ValidityReport& report) {
                          plan.missing_why + " Best and worst cases: see the table of other rules."});
     const std::size_t n1 = one.first.persons - one.first.absent, n2 = one.second.persons - one.second.absent;
     if (n1 != n2 && std::min(n1, n2) > 0 && std::max(n1, n2) >= 2 * std::min(n1, n2))
-      all.push_back({name + ": are the groups of a size?", std::to_string(n1) + " and " + std::to_string(n2) +
-                                                               ": the smaller one bounds what can be found."});
+      all.push_back({name + ": are the groups equal in size?", std::to_string(n1) + " and " + std::to_string(n2) +
+                                                                   ": the smaller one limits what can be found."});
     if (one.p_adjusted && *one.p_adjusted > plan.alpha)
       all.push_back({name + ": could the study have found a difference at all?",
                      "One of this size or more, with 80 % power: " + detectable_text(one) + "."});
@@ -58,7 +58,7 @@ std::vector<Question> questions_of(const ValidityReport& report) {
   }
   if (report.result.primary.size() > 1)
     all.push_back(
-        {"Why not one test for each outcome?", "Holm’s method holds the chance of any false conclusion among the " +
+        {"Why not one test for each outcome?", "Holm’s method keeps the chance of any false conclusion among the " +
                                                    std::to_string(report.result.primary.size()) +
                                                    " primary ones at " + digits_text(plan.alpha) + "."});
   all.push_back({"Was anybody blinded?",
@@ -86,21 +86,20 @@ Html limits_section(const ValidityReport& report) {
         "procedure works, nothing else.</li>\n");
   if (!plan.randomised)
     html.raw(
-        "<li>That experience causes the difference: people were not sent to their groups by chance, and groups "
-        "differ in more than what parts them.</li>\n");
+        "<li>That experience causes the difference: people were not assigned to their groups by chance, and groups "
+        "differ in more than what separates them.</li>\n");
   html.raw(
-      "<li>That a person of either group does well with patients: nobody was observed there.</li>\n"
-      "<li>That who scores well is competent: groups that differ show that the metric is related to what parts "
-      "them; "
-      "where to draw a line is another study.</li>\n"
-      "<li>That a metric is valid for another use, another case or another hand than those named here.</li>\n");
+      "<li>That a person of either group does well with patients: nobody was observed there.</li>\n<li>That those "
+      "who score well are competent: groups that differ show that the metric is related to what separates them; "
+      "where to draw a line is another study.</li>\n<li>That a metric is valid for another use, another case or "
+      "another hand than those named here.</li>\n");
   if (report.plan.frozen())
     for (const study::Compared& one : report.result.primary)
       if (one.refused.empty() &&
           (one.first.attempts < 2 * one.first.persons || one.second.attempts < 2 * one.second.persons)) {
         html.raw("<li>")
             .text(one.outcome.name)
-            .raw(": how much of a person’s value is that day’s: most made fewer than two attempts.</li>\n");
+            .raw(": how much of a person’s value belongs to that day: most made fewer than two attempts.</li>\n");
         break;
       }
   return html.raw("</ul>\n</section>\n");

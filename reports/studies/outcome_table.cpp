@@ -122,12 +122,10 @@ Html sensitivity_table(const std::vector<study::Compared>& outcomes) {
       if (!any)
         html.raw(
             "<table class=\"outcomes\"><caption>The same comparisons under other rules for what is missing, and "
-            "per "
-            "protocol; the plan’s rule bears the conclusion, and p here is not adjusted</caption>\n<thead><tr><th "
-            "scope=\"col\">Outcome</th><th "
-            "scope=\"col\">"
-            "Rule</th><th scope=\"col\">Effect, 95 % interval</th><th scope=\"col\" class=\"number\">p</th><th "
-            "scope=\"col\" class=\"number\">n</th></tr></thead>\n<tbody>\n");
+            "per protocol; the conclusion rests on the plan’s rule, and p here is not "
+            "adjusted</caption>\n<thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Rule</th><th "
+            "scope=\"col\">Effect, 95 % interval</th><th scope=\"col\" class=\"number\">p</th><th scope=\"col\" "
+            "class=\"number\">n</th></tr></thead>\n<tbody>\n");
       any = true;
       html.raw("<tr><th scope=\"row\">").text(title_of(one)).raw("</th><td>").text(other.rule);
       if (other.shift) html.text(" (by " + digits_text(*other.shift) + " " + unit_of(one) + ")");

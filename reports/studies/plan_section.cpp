@@ -29,7 +29,7 @@ std::string outcome_words(const ValidityReport& report, const study::Outcome& on
          one.first + " against " + one.second + " by " + test_text(one.test) + "; better is " +
          (one.better == assessment::Direction::lower_is_better ? "lower" : "higher") +
          "; smallest worthwhile difference " + digits_text(one.smallest_worthwhile) +
-         (one.failure_value ? "; who failed counts as " + digits_text(*one.failure_value) : std::string());
+         (one.failure_value ? "; a failure counts as " + digits_text(*one.failure_value) : std::string());
 }
 
 }  // namespace

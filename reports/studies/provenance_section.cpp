@@ -49,11 +49,11 @@ Html provenance_section(const ValidityReport& report) {
     add_fact_row(html, "Data locked", report.lock ? utc_text(report.lock->locked_us) : "not yet");
     if (report.lock)
       add_fact_row(html, "Locked values, SHA-256",
-                   report.lock->data_hash + (report.lock->data_hash == report.data_hash
-                                                 ? ": those that are analysed here"
-                                                 : ": others than are analysed here, as when somebody has "
-                                                   "withdrawn or was erased since, an attempt "
-                                                   "begun before was stored later, or values were computed anew"));
+                   report.lock->data_hash +
+                       (report.lock->data_hash == report.data_hash
+                            ? ": those that are analysed here"
+                            : ": not those analysed here, as when somebody has withdrawn or was erased since, an "
+                              "attempt begun before was stored later, or values were recomputed"));
   }
   add_fact_row(html, "Report made", utc_text(report.made_us));
   add_fact_row(html, "Program", "Seldinger " + report.program_version);

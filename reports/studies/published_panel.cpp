@@ -87,11 +87,10 @@ Html published_panel(const ValidityReport& report) {
           "selection</th></tr></thead><tbody>\n")
       .add(rows)
       .raw(
-          "</tbody></table>\n<p class=\"note\">Filled: this study, Hedges’ g of those who have a value; who failed "
-          "is "
-          "not in it. Hollow: other simulators, other metrics and other people, so likeness proves nothing. What "
-          "was reported because it was significant is too large; the last column is the likeliest size given that "
-          "(Hedges 1984).</p>\n</article>\n");
+          "</tbody></table>\n<p class=\"note\">Filled: this study, Hedges’ g of those who have a value; those who "
+          "failed are not in it. Hollow: other simulators, other metrics and other people, so similarity proves "
+          "nothing. What was reported because it was significant is too large; the last column is the likeliest "
+          "size allowing for that (Hedges 1984).</p>\n</article>\n");
 }
 
 }  // namespace seldinger::reports

@@ -54,7 +54,7 @@ Html relations_panel(const ValidityReport& report) {
   }
   if (rows.empty())
     return no_evidence_yet(kSource, kTitle,
-                           "No rated replay is of a primary outcome’s case, and nobody stated their experience.");
+                           "No rated replay shows a primary outcome’s case, and nobody stated their experience.");
   Html html = evidence_panel(kSource, kTitle);
   html.raw(
       "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Beside</th><th scope=\"col\">Persons</th>"
@@ -62,17 +62,14 @@ Html relations_panel(const ValidityReport& report) {
       "the "
       "other</th><th scope=\"col\">ρ corrected for both</th></tr></thead><tbody>\n");
   return html.add(rows).raw(
-      "</tbody></table>\n<p class=\"note\">In brackets 95 % intervals. Who failed has no value and is not among "
-      "the "
-      "persons. The mean rating is of all rated replays of a person at the case, whatever the visit, by raters who "
-      "were not told whose it was. Reliability of an outcome: ranks of two halves of each person’s attempts, "
-      "stepped "
-      "up (Spearman and Brown 1910), a half being the mean of its attempts with a value; who has one attempt is in "
-      "ρ "
-      "alone, so it may be corrected too little. Reliability of ratings: ICC of a replay’s mean. Corrected: ρ over "
-      "the root of both "
-      "(Spearman 1904), as if both were known exactly, so that its interval is too narrow; beyond 1 it is so by "
-      "chance, or since a reliability is too low.</p>\n</article>\n");
+      "</tbody></table>\n<p class=\"note\">95 % intervals in brackets. Those who failed have no value and are not "
+      "among the persons. The mean rating is of all rated replays of a person at the case, whatever the visit, by "
+      "raters who did not know whose it was. Reliability of an outcome: ranks of two halves of each person’s "
+      "attempts, stepped up (Spearman and Brown 1910), a half being the mean of its attempts with a value; a "
+      "person with one attempt is in ρ alone, so it may be corrected too little. Reliability of ratings: ICC of a "
+      "replay’s mean. Corrected: ρ over the root of both (Spearman 1904), as if both were known exactly, so that "
+      "its interval is too narrow; beyond 1 it is so by chance, or because a reliability is too "
+      "low.</p>\n</article>\n");
 }
 
 }  // namespace seldinger::reports

@@ -69,7 +69,7 @@ Html sources_section(const ValidityReport& report) {
   Html html;
   html.raw(
       "<section id=\"sources\">\n<h2>3 Evidence by source of validity</h2>\n<p class=\"note\">All of this is "
-      "exploratory: it bears no p-values and no conclusions.</p>\n");
+      "exploratory: it has no p-values and supports no conclusions.</p>\n");
   html.add(content_panel(report.plan.plan));
   if (!report.plan.frozen()) return html.raw("</section>\n");
   html.add(response_panel(report));

@@ -33,15 +33,15 @@ Html forms_panel(const ValidityReport& report) {
               std::to_string(one.high));
     html.raw("</td><td>").text(std::to_string(one.alpha.n));
     if (one.alpha.missing > 0)
-      html.text("; " + std::to_string(one.alpha.missing) + " left out, who did not answer every item");
+      html.text("; " + std::to_string(one.alpha.missing) + " left out who did not answer every item");
     html.raw("</td>");
     add_estimate(html, one.alpha);
     add_estimate(html, one.omega);
     html.raw("</tr>\n");
   }
   return html.raw(
-      "</tbody></table>\n<p class=\"note\">In brackets 95 % intervals. Each round stands alone, and so does each "
-      "version of a form.</p>\n</article>\n");
+      "</tbody></table>\n<p class=\"note\">95 % intervals in brackets. Each round is analysed on its own, and so "
+      "is each version of a form.</p>\n</article>\n");
 }
 
 Html raters_panel(const ValidityReport& report) {
@@ -59,7 +59,7 @@ Html raters_panel(const ValidityReport& report) {
     html.raw("</tr>\n");
   }
   return html.raw(
-      "</tbody></table>\n<p class=\"note\">One-way, random: severity is in the error. Without calibration and "
+      "</tbody></table>\n<p class=\"note\">One-way, random: severity counts as error. Without calibration and "
       "repeats.</p>\n</article>\n");
 }
 

@@ -32,11 +32,10 @@ std::string worthwhile_text(const study::Compared& one, bool shown) {
   if (one.outcome.test == study::Test::brunner_munzel || !one.answer.ci95) return {};
   const double small = one.outcome.smallest_worthwhile;
   const assessment::statistics::Interval ci = *one.answer.ci95;
-  if (ci.low > -small && ci.high < small)
-    return " Whatever difference there is is smaller than the smallest worthwhile one.";
+  if (ci.low > -small && ci.high < small) return " Any difference is smaller than the smallest worthwhile one.";
   if (!shown) return {};
   return ci.low >= small || ci.high <= -small ? " The difference is larger than the smallest worthwhile one."
-                                              : " Whether by as much as is worthwhile stays open.";
+                                              : " Whether it is large enough to be worthwhile remains open.";
 }
 
 }  // namespace

@@ -51,10 +51,10 @@ Html subgroups_panel(const ValidityReport& report) {
       "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Persons</th><th scope=\"col\">At the pass "
       "mark</th><th scope=\"col\">Difference from the largest</th></tr></thead><tbody>\n");
   return html.add(rows).raw(
-      "</tbody></table>\n<p class=\"note\">Of both groups together; in brackets and grey 95 % intervals (Wilson, "
-      "Newcombe). Descriptive: fewer than 5 passed or failed on one side, which says something of these persons "
-      "and nothing of others. Withheld: fewer than 5 persons, or what would tell of so few. Nobody was put into "
-      "these subgroups by chance: a difference may come of anything that goes with them.</p>\n</article>\n");
+      "</tbody></table>\n<p class=\"note\">Both groups together; 95 % intervals in brackets and grey (Wilson, "
+      "Newcombe). Descriptive: fewer than 5 passed or failed on one side, which says something about these persons "
+      "and nothing about others. Withheld: fewer than 5 persons, or what would reveal so few. Nobody was assigned "
+      "to these subgroups by chance: a difference may come from anything that goes with them.</p>\n</article>\n");
 }
 
 }  // namespace seldinger::reports

@@ -29,7 +29,7 @@ std::string dependability_text(const assessment::statistics::Answer& of, casedb:
   if (!of.estimable())
     return "Φ is not estimated: " + std::string(assessment::statistics::find_reason(of.reason.c_str())->words) +
            ". It takes two persons or more with graded attempts at two cases or more in common.";
-  if (withheld(of, whose)) return "Φ is not told: fewer than five people made it up.";
+  if (withheld(of, whose)) return "Φ is withheld: it comes from fewer than five people.";
   const double cases = further_of(of, "cases").value_or(0.0);
   const auto needed = further_of(of, "cases_for_phi");
   std::string text = "One case alone decides about a person with a dependability Φ of " +
@@ -46,9 +46,9 @@ std::string dependability_text(const assessment::statistics::Answer& of, casedb:
 }
 
 std::string dependability_line(const assessment::statistics::Answer& of, casedb::Learners whose) {
-  if (!of.estimable()) return "How far passing one case tells people apart (Φ) is not known yet.";
+  if (!of.estimable()) return "How well passing one case tells people apart (Φ) is not known yet.";
   if (withheld(of, whose))
-    return "How far passing one case tells people apart (Φ) is not told: fewer than five people made it up.";
+    return "How well passing one case tells people apart (Φ) is withheld: it comes from fewer than five people.";
   const auto needed = further_of(of, "cases_for_phi");
   return "Passing one case decides about a person with a dependability Φ of " +
          number_text(further_of(of, "phi_one_case").value_or(0.0), 2) + "; " + number_text(casedb::kDependable, 1) +

@@ -83,9 +83,9 @@ std::string score_text(const assessment::Score& score) {
   }
   constexpr std::pair<std::string_view, std::string_view> kReasons[] = {
       {"no_expert_set", "consultants have set no standard"},
-      {"of_the_set", "whose attempts set the standard is not scored against it"},
+      {"of_the_set", "those whose attempts set the standard are not scored against it"},
       {"missing_metric", "a metric that it needs has no value"},
-      {"other_version", "the standard is of another version of a metric; recompute, or set the standard anew"}};
+      {"other_version", "the standard is for another version of a metric; recompute, or set the standard again"}};
   for (const auto& [code, words] : kReasons)
     if (code == score.reason) return "none: " + std::string(words);
   return "none: the attempt is not graded";
@@ -120,7 +120,7 @@ std::string band_text(const assessment::ExpertSet& set, std::string_view metric_
 
 std::string tolerance_text(const assessment::ExpertSet& set, std::string_view metric_id, int version) {
   if (set.standard() && set.only_other_version(metric_id, version))
-    return "not comparable: the standard is of another version of this metric";
+    return "not comparable: the standard is for another version of this metric";
   const assessment::MetricBand* band = set.standard() ? set.find(metric_id, version) : nullptr;
   if (band == nullptr || !band->tolerance) return "";
   return "n = " + std::to_string(band->n) + ", tolerance " +
@@ -133,7 +133,7 @@ std::string bands_note() {
          "last " +
          std::to_string(assessment::kCountedAttempts) + " attempts. Its tolerance interval holds " +
          percent(assessment::kToleranceShare) + " of all consultants with " +
-         percent(assessment::kToleranceConfidence) + " confidence, were they normally distributed.";
+         percent(assessment::kToleranceConfidence) + " confidence, if they are normally distributed.";
 }
 
 }  // namespace seldinger::reports

@@ -104,7 +104,8 @@ Card metric_card(std::string_view id, int version) {
   Card card{std::string(id), metric_label(id), 0, "", {}};
   const MetricInfo* info = assessment::find_metric(std::string(id));
   if (info == nullptr) {
-    card.definition = "This program does not know how it was measured: another version of it stored the value.";
+    card.definition =
+        "This program does not know how it was measured: another version of the program stored the value.";
     return card;
   }
   card.version = info->version;

@@ -23,7 +23,7 @@ enum Mark : std::size_t { kShown, kSaid, kDone, kLeftOut, kSaidOnly, kLate, kWro
 constexpr std::array<StepMark, kMarks> kStepMarks = {{
     {"✓", "shown", false, "your action showed it, in time"},
     {"✓", "said", true, "said in time; no action can show it"},
-    {"✓", "done", true, "done or said in time, stored before the two were told apart"},
+    {"✓", "done", true, "done or said in time, stored before the two were distinguished"},
     {"–", "left out", false, "never done"},
     {"–", "said, not shown", true, "said only, where an action would show it: as left out"},
     {"–", "too late", true, "done after its time was over: as left out"},
@@ -52,8 +52,8 @@ std::string words_of(Evidence evidence) {
 std::string definition_of(const StepInfo& step) {
   if (!step.shown())
     return "It counts as said: no action can show it, and the trainee is taken at his or her word.";
-  std::string text = "It is shown by an action: by what hands, pictures and patient tell.";
-  if (step.said != Evidence::none) text += " To say it (" + words_of(step.said) + ") is told and does not count.";
+  std::string text = "It is shown by an action: hands, pictures and patient are the evidence.";
+  if (step.said != Evidence::none) text += " Saying it (" + words_of(step.said) + ") is listed and does not count.";
   return text;
 }
 
@@ -104,7 +104,7 @@ Card step_card(std::string_view id, int version) {
   Card card{std::string(id), step_label(id), 0, "", {}};
   const StepInfo* info = assessment::find_step(id);
   if (info == nullptr) {
-    card.definition = "This program does not know the step: another version of it stored the result.";
+    card.definition = "This program does not know the step: another version of the program stored the result.";
     return card;
   }
   card.version = assessment::kStepsVersion;
@@ -121,8 +121,8 @@ Card step_card(std::string_view id, int version) {
       {"Counts",
        info->graded_with == 0
            ? "wherever it is asked for, in " + with_labels("steps_done") + " and " + with_labels("steps_violated")
-           : "only with " + assessment::words_of_needs(info->graded_with) + "; elsewhere it is told"});
-  card.lines.push_back({"Version", version_words(card, version, "result was told")});
+           : "only with " + assessment::words_of_needs(info->graded_with) + "; elsewhere it is only listed"});
+  card.lines.push_back({"Version", version_words(card, version, "result was judged")});
   card.lines.push_back({"Source", info->source});
   return card;
 }

@@ -156,7 +156,7 @@ const jobs = {
     await replay(page);
     await page.getByLabel("At second").fill("0.5");
     await page.getByLabel("Comment", { exact: true }).fill(said);
-    await page.getByRole("button", { name: "Say it" }).click();
+    await page.getByRole("button", { name: "Add comment" }).click();
     await page.locator("dl dd", { hasText: said }).first().waitFor();
     await replay(page, said);
     await look(page, "attempt");
@@ -232,7 +232,7 @@ const jobs = {
     const their = await theirs.newPage();
     await their.goto(await page.locator(".message code").textContent());
     await look(their, "password");
-    for (const name of ["New password", "The same again"]) await their.getByLabel(name).fill(password);
+    for (const name of ["New password", "Repeat password"]) await their.getByLabel(name).fill(password);
     await their.getByRole("button", { name: "Set it" }).click();
     await their.getByLabel("Name").fill(newcomer);
     await their.getByLabel("Password").fill(password);

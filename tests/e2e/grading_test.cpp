@@ -82,7 +82,7 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
       << "the simulated expert is built to do better";
   const std::string page = fixtures::whole_file(library_.folder() / "side.html");
   for (const char* text :
-       {"Simulated expert", "Simulated novice", "What each attempt was told",
+       {"Simulated expert", "Simulated novice", "Feedback on each attempt",
         "Training only, not for planning a patient&#39;s procedure.", "No expert has set a standard yet"})
     EXPECT_NE(page.find(text), page.npos) << text;
 

@@ -148,7 +148,7 @@ TEST(GradeOnPage, AnotherVersionThanTheStandardsIsNotComparable) {
   give_standard(view.grade, 8);
   view.grade.experts.bands[0].version = 99;
   const std::string html = attempt_page(kTrainee, view, nullptr);
-  EXPECT_THAT(html, HasSubstr("not comparable: the standard is of another version of this metric"));
+  EXPECT_THAT(html, HasSubstr("not comparable: the standard is for another version of this metric"));
   EXPECT_THAT(html, Not(HasSubstr("consultants 1–2")));
 }
 

@@ -53,7 +53,7 @@ std::vector<std::string> all_pages() {
   const cases::Recording recording = sample_recording(view.row.lesion, 8.0);
   const ListPart part{2, 3, 120, false};
   return {login_page("t", ""),
-          login_page("t", "Name and password do not fit."),
+          login_page("t", "Wrong name or password."),
           message_page("Not found", "There is nothing here.", kMentor),
           attempts_page(kMentor, std::vector{view, view}, part),
           attempts_page(kMentor, {}, {}),
@@ -173,7 +173,7 @@ TEST(AttemptPage, EveryStepOpensWhatItIsAndEveryMarkHasItsLegend) {
     EXPECT_GE(count_of(section, ">" + std::string(mark) + "</span>"), 1U) << mark;
     EXPECT_EQ(count_of(section, "<dt>" + std::string(mark) + "</dt>"), 1U) << mark;
   }
-  EXPECT_THAT(section, HasSubstr("this result was told by version " + std::to_string(now - 1)));
+  EXPECT_THAT(section, HasSubstr("this result was judged by version " + std::to_string(now - 1)));
   EXPECT_THAT(section, HasSubstr("<dd>the needle is not a core needle</dd>"));
 }
 
@@ -364,7 +364,7 @@ TEST(AttemptsPage, ALongListLinksItsNeighbours) {
 }
 
 TEST(LogInPage, PostsNamePasswordAndTokenAndTellsTheProblemAloud) {
-  const std::string html = login_page("tok", "Name and password do not fit.");
+  const std::string html = login_page("tok", "Wrong name or password.");
   for (const char* piece : {"method=\"post\" action=\"/login\"", "name=\"token\" value=\"tok\"",
                             "type=\"password\"", "autocomplete=\"current-password\"", "role=\"alert\""}) {
     EXPECT_THAT(html, HasSubstr(piece));

@@ -182,11 +182,11 @@ TEST_F(AnsweringTest, TheNextPersonAtAKioskSeesNothingOfTheLast) {
 
 TEST_F(AnsweringTest, WhatDoesNotFitIsSaidAndNothingIsKept) {
   FakeBrowser browser(*site_);
-  EXPECT_THAT(browser.get("/answer?code=XXXXXX").body, HasSubstr("No questionnaire is answered under that code"));
+  EXPECT_THAT(browser.get("/answer?code=XXXXXX").body, HasSubstr("No questionnaire has that code"));
   EXPECT_THAT(browser.get("/answer?code=" + code_).body, HasSubstr("Study &lt;day&gt;"));
   const Response nobody = begin(browser, "A1", "");
   EXPECT_EQ(nobody.status, 400);
-  EXPECT_THAT(nobody.body, HasSubstr("as what you are here"));
+  EXPECT_THAT(nobody.body, HasSubstr("what you are here as"));
   ASSERT_EQ(begin(browser, "A1").status, 303);
   EXPECT_EQ(begin(browser, "A1").status, 400) << "one code, one person";
   FakeBrowser good(*site_);

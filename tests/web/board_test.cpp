@@ -47,7 +47,7 @@ TEST(Board, ShowsNumbersAndNothingOfWhoTheyAre) {
   EXPECT_THAT(board.body, Not(HasSubstr("<script")));
   const Response none = browser.get("/board?code=XXXXXX");
   EXPECT_EQ(none.status, 404);
-  EXPECT_THAT(none.body, HasSubstr("There is no workshop of that code"));
+  EXPECT_THAT(none.body, HasSubstr("No workshop has that code"));
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST(LibraryQuestions, AStoredAttemptIsListedShownAndItsPictureServed) {
        {"Kidney &lt;b&gt;A&lt;/b&gt;", "Simulated expert", "<dd>Yes</dd>",
         "— <span class=\"why\">the needle was neither fired nor declared to be on target</span>",
         "From 4.9 mm at the start to 0.0 mm at the end",
-        "Insert the needle; the skin of a patient must be numb</summary>", "<span class=\"no\">✗ wrong</span>",
+        "Insert the needle; a patient&#39;s skin must be numb</summary>", "<span class=\"no\">✗ wrong</span>",
         "LPS (4.0, 4.0, 4.0) mm, diameter 4.0 mm"}) {
     EXPECT_THAT(page, HasSubstr(piece));
   }

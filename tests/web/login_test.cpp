@@ -45,7 +45,7 @@ TEST_F(LoginTest, AnUnknownNameAndAWrongPasswordGetTheSamePage) {
   EXPECT_EQ(wrong.status, 403);
   EXPECT_EQ(unknown.body, wrong.body);
   EXPECT_EQ(header_of(wrong, "Set-Cookie"), "");
-  EXPECT_THAT(wrong.body, HasSubstr("Name and password do not fit."));
+  EXPECT_THAT(wrong.body, HasSubstr("Wrong name or password."));
 }
 
 TEST_F(LoginTest, NeedsTheTokenOfItsOwnForm) {
@@ -231,7 +231,7 @@ TEST_F(LoginTest, TheLogIsBoundedHoweverManyAddressesFail) {
     fake.now_us += 10000000;
   }
   EXPECT_EQ(fake.log.size(), 515U) << "twice 256 and one, and how many were left out of the first";
-  EXPECT_THAT(fake.log, ::testing::Contains("security: more than are told one by one; 4743 times more"));
+  EXPECT_THAT(fake.log, ::testing::Contains("security: more than are listed one by one; 4743 times more"));
 }
 
 // Was: 60 tries of all names together, then one a second: the victim was in 7 times of 14.

@@ -161,7 +161,7 @@ TEST(Rating, WhatIsTypedIsKeptAndWhatDoesNotFitIsSaid) {
   EXPECT_THAT(page, Not(HasSubstr("\"77\"")));
   const Response refused = world.send(browser, 2, "item-flow=6", "later");
   EXPECT_EQ(refused.status, 400);
-  EXPECT_THAT(refused.body, HasSubstr("Please mend this"));
+  EXPECT_THAT(refused.body, HasSubstr("Please correct this"));
   const Response slip = world.send(browser, 2, "item-flow=5");
   EXPECT_EQ(slip.status, 400);
   EXPECT_THAT(slip.body, HasSubstr("Please rate this, or say that it is not applicable"));
@@ -188,7 +188,7 @@ TEST(Rating, WithoutAKeyThereIsNoBench) {
   for (const std::string& key : {std::string(), std::string("abcd-efgh-jkmn"), world.code}) {
     const Response refused = browser.post("/rate", "key=" + key + "&token=" + token);
     EXPECT_EQ(refused.status, 404);
-    EXPECT_THAT(refused.body, HasSubstr("Nobody rates with that key"));
+    EXPECT_THAT(refused.body, HasSubstr("No rater has that key"));
   }
   EXPECT_EQ(browser.post("/rate", "key=" + world.keys[0] + "&token=x").status, 403);
   // Nor is the round's code a way in for who answers questionnaires.

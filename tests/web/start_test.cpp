@@ -161,7 +161,7 @@ TEST(Start, AnAdminReadsHowTheServerStandsAndNothingOfPeoplesWork) {
   browser.log_in_as(Role::admin);
   const std::string page = browser.get("/").body;
   EXPECT_THAT(page, HasSubstr("5 open, 1 closed"));
-  EXPECT_THAT(page, HasSubstr("Less room is left"));
+  EXPECT_THAT(page, HasSubstr("There is less room left"));
   EXPECT_THAT(page, HasSubstr("9.8.7"));
   EXPECT_THAT(page, Not(HasSubstr("/attempts/")));
 }

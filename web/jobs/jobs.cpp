@@ -25,7 +25,7 @@ constexpr const char* kKept = "job.json";
 constexpr const char* kFiles = "files";
 constexpr const char* kResults = "results";
 constexpr const char* kLock = ".lock";
-constexpr const char* kStopped = "The server was stopped before it had ended.";
+constexpr const char* kStopped = "The server was stopped before the job had ended.";
 constexpr std::size_t kMostSaid = 4000;
 // Other: named unlike a slice, so that an import tells it from a lost one.
 constexpr std::string_view kEndings[] = {"dcm", "nii", "nii.gz", "nrrd", "mha", "other"};
@@ -190,7 +190,7 @@ void Jobs::drop_old(const std::string& person_id) {
   const std::int64_t now_us = now_us_();
   for (const auto& [job_id, heard] : std::map(heard_us_))
     if (now_us - heard > limits_.silent_us)
-      end_or_forget(job_id, JobState::interrupted, "Nothing more of its files came for an hour.");
+      end_or_forget(job_id, JobState::interrupted, "No more of its files arrived for an hour.");
   std::vector<const Job*> ended;  // of that person, newest first
   for (const auto& [job_id, job] : jobs_)
     if (job.person_id == person_id && has_ended(job.state)) ended.push_back(&job);
@@ -216,7 +216,8 @@ base::Result<std::string> Jobs::ask(const std::string& person_id, JobKind kind,
                                     const std::map<std::string, std::string>& wish) {
   if (lock_ < 0)
     return base::Error{
-        "no_job", "No jobs are taken here: another server has this library's, or nothing can be written there."};
+        "no_job",
+        "No jobs are accepted here: another server runs this library's, or the library cannot be written."};
   const std::lock_guard lock(mutex_);
   drop_old(person_id);
   const auto open = std::count_if(jobs_.begin(), jobs_.end(), [&](const auto& one) {
@@ -262,7 +263,7 @@ base::Result<void> Jobs::receive(const std::string& person_id, const std::string
   const std::lock_guard lock(mutex_);
   Job* job = own(person_id, job_id);
   if (job == nullptr) return no_job();
-  if (job->state != JobState::receiving) return base::Error{"bad_piece", "the job takes no files any more"};
+  if (job->state != JobState::receiving) return base::Error{"bad_piece", "the job accepts no more files"};
   const bool known = std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
   if (known && number == 0 && at == 0 && !job->files.empty()) {  // a page that was loaded again
     std::error_code none;
@@ -276,7 +277,7 @@ base::Result<void> Jobs::receive(const std::string& person_id, const std::string
   std::uint64_t sent = piece.size();
   for (const JobFile& one : job->files) sent += one.bytes;
   if (sent > limits_.most_sent_bytes || number >= limits_.most_files)
-    return base::Error{"too_large", "that is more than is taken here: `seldinger import` takes larger ones"};
+    return base::Error{"too_large", "that is more than is accepted here: `seldinger import` takes larger ones"};
   std::error_code failed;
   const auto space = fs::space(folder_of(*job), failed);
   if (failed || space.available < limits_.free_bytes + piece.size())

@@ -58,7 +58,7 @@ Response show_password(Site& site, const Call& call) {
   if (!asked || link == asked->end()) return html_response(200, reports::password_page("", "", ""));
   const auto account = site.questions.account_of_password_link(link->second);
   if (!account)
-    return html_response(404, reports::password_page("", "", "This link does not hold any more. Ask for another."));
+    return html_response(404, reports::password_page("", "", "This link is no longer valid. Ask for another."));
   return html_response(200, reports::password_page(link->second, account->login_name, ""));
 }
 
@@ -67,9 +67,9 @@ Response set_password(Site& site, const Call& call) {
   const std::string secret = call.field("link");
   const auto account = site.questions.account_of_password_link(secret);
   if (!account)
-    return html_response(404, reports::password_page("", "", "This link does not hold any more. Ask for another."));
+    return html_response(404, reports::password_page("", "", "This link is no longer valid. Ask for another."));
   if (password.text != again.text)
-    return html_response(400, reports::password_page(secret, account->login_name, "The two are not the same."));
+    return html_response(400, reports::password_page(secret, account->login_name, "The two passwords differ."));
   const auto set = site.questions.set_password_by_link(secret, account->person_id, password.text);
   if (!set) return html_response(400, reports::password_page(secret, account->login_name, set.error().text));
   site.security.note("password set by a one-time link", call.request.from, account->person_id);

@@ -56,8 +56,7 @@ Response who_page(Site& site, const Call& call, int status, const RoundForms& fo
 // The page of a code that was typed or followed.
 Response page_of_code(Site& site, const Call& call, const std::string& code) {
   const auto found = site.questions.find_round(code);
-  if (!found)
-    return start_page(site, call, 404, "No questionnaire is answered under that code. Is it typed right?");
+  if (!found) return start_page(site, call, 404, "No questionnaire has that code. Is it typed correctly?");
   if (!found->round.is_open()) return start_page(site, call, 404, "This questionnaire is closed.");
   return who_page(site, call, 200, *found, {}, "");
 }
@@ -107,7 +106,7 @@ std::map<std::string, std::string> problems_of(const assessment::questionnaire::
     const auto* item = form.find_item(item_id);
     if (item == nullptr) continue;
     const auto answer = assessment::questionnaire::answer_from_text(form, *item, text);
-    if (!answer) problems.emplace(item_id, "Please mend this: it " + answer.error().text + ".");
+    if (!answer) problems.emplace(item_id, "Please correct this: it " + answer.error().text + ".");
   }
   return problems;
 }
@@ -139,7 +138,7 @@ Response begin_answers(Site& site, const Call& call) {
   if (!secret) {
     const bool group = secret.error().code == "bad_group";
     return who_page(site, call, 400, *found, respondent,
-                    group ? "Please choose as what you are here." : "Not yet: " + secret.error().text + ".");
+                    group ? "Please choose what you are here as." : "Not yet: " + secret.error().text + ".");
   }
   Response response = redirect("/answer/form");
   response.headers.emplace_back("Set-Cookie", answers_cookie(site, *secret));
@@ -196,7 +195,7 @@ Response show_board(Site& site, const Call& call) {
   if (code.empty()) return html_response(200, reports::board_start_page(""));
   const auto board = site.questions.find_board(std::string(code));
   if (!board)
-    return html_response(404, reports::board_start_page("There is no workshop of that code. Is it typed right?"));
+    return html_response(404, reports::board_start_page("No workshop has that code. Is it typed correctly?"));
   Response response = html_response(200, reports::board_page(board->workshop, board->participants));
   response.headers.emplace_back("Refresh", std::to_string(reports::kBoardEveryS));
   return response;
@@ -209,7 +208,7 @@ constexpr Route kAnsweringRoutes[] = {
     {"POST", "/answer", kOpen, true, "", "begins to answer: code, group, respondent, language, begin, token",
      begin_answers},
     {"GET", "/answer/form", kOpen, true, "the browser that began",
-     "a section of the questionnaire that is being answered; ?section=N", show_answer_section},
+     "a section of the questionnaire being answered; ?section=N", show_answer_section},
     {"POST", "/answer/form", kOpen, true, "the browser that began",
      "keeps a section's answers, or sends all: section, go, a field each item, token", keep_answers},
     {"GET", "/answer/thanks", kOpen, true, "", "that the answers were sent", show_answer_thanks},

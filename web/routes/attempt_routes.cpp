@@ -258,7 +258,7 @@ constexpr Route kAttemptRoutes[] = {
     {"GET", "/attempts/{attempt_id}/skin.json", Action::see_recording, false, kRecordingSeen,
      "a coarse net of the patient's skin for the replay, in LPS", show_skin, Lane::heavy},
     {"GET", "/attempts/{attempt_id}/pictures", Action::see_recording, true, kRecordingSeen,
-     "what was on the screen at its telling moments and where the needle was, drawn when first asked",
+     "what was on the screen at its key moments and where the needle was, drawn when first asked for",
      show_pictures, Lane::heavy, kDrawn},
     {"GET", "/attempts/{attempt_id}/pictures.png", Action::see_recording, false, kRecordingSeen,
      "one of those pictures; ?n=N", show_drawn_picture, Lane::heavy, kDrawn},
@@ -268,7 +268,7 @@ constexpr Route kAttemptRoutes[] = {
      "its grade, score and sentences as `score` prints them; of experts to others than mentors only rounded bands",
      show_grade},
     {"POST", "/attempts/{attempt_id}/comments", Action::comment_attempt, true, "mentor: own cohort",
-     "says something of a moment of it: at, text, token", comment_attempt, Lane::changes},
+     "comments on a moment of it: at, text, token", comment_attempt, Lane::changes},
 };
 
 }  // namespace

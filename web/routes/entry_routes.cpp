@@ -79,7 +79,7 @@ Response log_in(Site& site, const Call& call) {
   }
   if (!account.has_value() || !account->enabled) {
     site.security.note("log-in failed", call.request.from, site.account_id(name));
-    return login_form(site, call, 403, "Name and password do not fit.");
+    return login_form(site, call, 403, "Wrong name or password.");
   }
   site.delays.forget(name, place);
   site.security.note("logged in", call.request.from, account->person_id);

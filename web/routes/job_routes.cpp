@@ -104,7 +104,7 @@ Response ask_job(Site& site, const Call& call) {
   if (!may_ask(site, call, *kind, wish)) return refusal(404, call.reader);
   if (const auto& title = wish["title"]; *kind == JobKind::import_ct && !title.empty())
     if (const auto fits = casedb::check_case_title(title); !fits)
-      return jobs_page(site, call, 400, "That is no title of a case: " + fits.error().text + ".");
+      return jobs_page(site, call, 400, "That is not a valid title for a case: " + fits.error().text + ".");
   const auto asked = site.surroundings.jobs->ask(call.reader->account.person_id, *kind, wish);
   if (!asked) return jobs_page(site, call, asked.error().code == "no_job" ? 503 : 429, asked.error().text);
   return redirect("/jobs/" + *asked);
@@ -176,7 +176,7 @@ Response jobs_script(Site&, const Call&) {
 }
 
 constexpr Route kJobRoutes[] = {
-    {"GET", "/jobs.js", kOpen, false, "", "the script that sends files and tells how far a job is", jobs_script},
+    {"GET", "/jobs.js", kOpen, false, "", "the script that sends files and shows how far a job is", jobs_script},
     {"GET", "/jobs", Action::run_job, true, kOwnJobs, "the list, newest first", list_jobs},
     {"GET", "/jobs.json", Action::run_job, false, kOwnJobs, "the same list", list_jobs_json},
     {"POST", "/jobs", Action::run_job, true, "mentor, admin: an import; researcher: own studies",

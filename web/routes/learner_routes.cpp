@@ -92,8 +92,7 @@ Response show_record(Site& site, const Call& call) {
 constexpr Route kLearnerRoutes[] = {
     {"GET", "/progress", Action::see_progress, true, kWhoseProgress,
      "trainee: how far they are, what is due and why; others: who is ready, nearly, stuck, absent or lapsed, and "
-     "what "
-     "keeps them; ?curriculum=ID&cohort=TITLE&standing=STATE",
+     "what holds them up; ?curriculum=ID&cohort=TITLE&standing=STATE",
      show_progress},
     {"GET", "/progress.json", Action::see_progress, false, kWhoseProgress,
      "trainee: how far they are, attempt by attempt; others: where each stands", show_progress_json},

@@ -23,8 +23,8 @@ constexpr Done kWithdrew{"withdrew", "Noted: you do not consent."};
 constexpr Done kSaved{"saved", "Saved."};
 constexpr Done kErased{"erased=", "Attempts deleted: %. They cannot be brought back."};
 constexpr Done kErasedNotYet{"erased-later=",
-                             "Attempts deleted: %. Old bytes of them lie in the library's files until nobody uses "
-                             "it: tell whoever runs it."};
+                             "Attempts deleted: %. Old bytes of them stay in the library's files until nobody is "
+                             "using it: tell whoever runs it."};
 
 std::string text_of(std::string_view query) {
   for (const Done& one : {kConsented, kWithdrew, kSaved, kErased, kErasedNotYet}) {

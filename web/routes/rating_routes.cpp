@@ -71,7 +71,7 @@ Response open_rating_bench(Site& site, const Call& call) {
     return rating_start(site, call, 403, "The page was too old. Please try again.");
   const std::string secret = casedb::rater_secret(call.field("key"));
   if (!site.questions.find_rating_bench(secret))
-    return rating_start(site, call, 404, "Nobody rates with that key. Is it typed right?");
+    return rating_start(site, call, 404, "No rater has that key. Is it typed correctly?");
   Response response = redirect("/rate/bench");
   response.headers.emplace_back("Set-Cookie", rater_cookie(site, secret));
   return response;

@@ -21,15 +21,11 @@ std::span<const Route> routes() {
 
 std::string routes_markdown() {
   std::string text =
-      "# Routes of the dashboard\n\n"
-      "Generated from the registry in `web/routes`; a test compares. HEAD is answered as GET without a body. "
-      "What a\n"
-      "reader may not see answers 404 with the same page as what does not exist. A page asked without a session "
-      "goes to\n"
-      "`/login` (303); the other routes answer 401. Every POST needs the form's token and a browser's word that it "
-      "comes\n"
-      "from this server (`Sec-Fetch-Site: same-origin`, or an `Origin` that names it), else 403.\n\n"
-      "| method | path | who | scope | answers |\n|---|---|---|---|---|\n";
+      "# Routes of the dashboard\n\nGenerated from the registry in `web/routes`; a test compares. HEAD is answered "
+      "as GET without a body. What a\nreader may not see answers 404 with the same page as what does not exist. A "
+      "page requested without a session goes to\n`/login` (303); the other routes answer 401. Every POST needs the "
+      "form's token and the browser's statement that it comes\nfrom this server (`Sec-Fetch-Site: same-origin`, or "
+      "an `Origin` that names it), else 403.\n\n| method | path | who | scope | answers |\n|---|---|---|---|---|\n";
   for (const Route& route : routes()) {
     std::string who;
     for (const casedb::Role role : casedb::kAllRoles) {

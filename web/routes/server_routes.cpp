@@ -58,8 +58,8 @@ Response show_openapi(Site& site, const Call&) {
 
 constexpr Route kServerRoutes[] = {
     {"GET", "/audit", Action::read_audit, true, "",
-     "who did what to which thing, newest first, and whether every row stands as it was written; ?days=N",
-     show_audit, Lane::heavy},
+     "who did what to what, newest first, and whether every row is as it was written; ?days=N", show_audit,
+     Lane::heavy},
     {"GET", "/audit.json", Action::read_audit, false, "", "the same; ?days=N", show_audit_json, Lane::heavy},
     {"GET", "/prometheus", kOpen, false, "who asks on the machine itself, not through a proxy; admin",
      "counts of answers and how long they took, as Prometheus reads them", show_tally},

@@ -25,7 +25,7 @@ void SecurityLog::note(std::string_view what, const std::string& address, const 
     if (line.unwritten > 0) surroundings_.log(it->first + "; " + std::to_string(line.unwritten) + " times more");
     it = lines_.erase(it);
   }
-  if (lines_.size() >= kMostLines && !lines_.contains(text)) text = "security: more than are told one by one";
+  if (lines_.size() >= kMostLines && !lines_.contains(text)) text = "security: more than are listed one by one";
   const auto [line, is_new] = lines_.try_emplace(text, Line{now_us, 0});
   if (is_new) {
     surroundings_.log(text);

@@ -25,7 +25,7 @@ Words words_for(int status) {
     case 404:
       return {"Not found", "There is nothing here, or it is not yours to see."};
     case 405:
-      return {"Not possible", "This address does not answer that method."};
+      return {"Not possible", "This address does not accept that method."};
     case 415:
       return {"Not understood", "Only forms are accepted here."};
     case 421:

@@ -56,7 +56,7 @@ void say_what_is_missing(Answer& answer, const std::string& whose, const Group& 
   if (group.values.size() == 1)
     answer.notes.push_back(whose + "One value has no SD and no interval.");
   else if (!spread.computable)
-    answer.notes.push_back(whose + "SD and interval are no finite numbers.");
+    answer.notes.push_back(whose + "SD and interval are not finite numbers.");
   else if (!spread.varies)
     answer.notes.push_back(whose + "The values do not vary: no interval.");
 }

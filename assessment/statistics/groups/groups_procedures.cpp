@@ -18,7 +18,7 @@ namespace {
 constexpr ProcedureOption kOrder = {"order", "groups as a:b",
                                     "which group is first; groups that it does not name are left out"};
 constexpr ProcedureOption kSeveralOrder = {
-    "order", "groups as a:b:c", "in which order groups are told; those that it does not name are left out"};
+    "order", "groups as a:b:c", "the order in which groups are listed; those that it does not name are left out"};
 constexpr ProcedureOption kDraws = {"draws", "1000 to 1000000", "permutations drawn where there are more; 10000"};
 constexpr ProcedureOption kSeed = {"seed", "a whole number", "of the permutations drawn; 1"};
 

@@ -119,7 +119,7 @@ Answer mann_whitney(const DataTable& table, const ProcedureOptions& options) {
                            in_words(test.smallest) + ".");
   }
   if (!shift.ci95)
-    answer.notes.emplace_back("With so few even the widest interval of the shift holds less than 95 %.");
+    answer.notes.emplace_back("With so few, even the widest interval of the shift holds less than 95 %.");
   else if (ties)
     answer.notes.emplace_back("The interval takes no account of ties: it holds 95 % or more.");
   answer.notes.emplace_back(

@@ -133,7 +133,7 @@ Outcomes outcomes_of(const DataTable& table, const GroupsAsked& asked) {
       outcomes.names.push_back(column.name);
       outcomes.values.push_back(std::move(values));
     } else {
-      outcomes.notes.push_back(column.name + (spread.varies ? " is left out: its variance is no finite number."
+      outcomes.notes.push_back(column.name + (spread.varies ? " is left out: its variance is not a finite number."
                                                             : " is left out: its values do not vary."));
     }
   }

@@ -55,14 +55,14 @@ std::string read_plan(const ProcedureOptions& options, Plan& plan) {
     plan.*field.into = *value;
   }
   if (options.has("n") && (options.has("n1") || options.has("n2")))
-    return "n is the n of both groups: not with n1 or n2.";
+    return "n is the n of both groups: do not give it with n1 or n2.";
   if (options.has("n1") != options.has("n2")) return "n1 and n2 go together.";
   if (options.has("n")) plan.n2 = plan.n1;
   plan.has_n = options.has("n") || options.has("n1");
   plan.has_d = options.has("d");
   plan.has_power = options.has("power");
   plan.has_p = options.has("p");
-  if (plan.has_p && plan.has_d) return "p and d are two ways to say an effect: one of them.";
+  if (plan.has_p && plan.has_d) return "p and d are two ways to state an effect: give one of them.";
   if (!(plan.alpha < plan.power) && plan.has_power) return "power must lie above alpha.";
   return {};
 }

@@ -211,7 +211,7 @@ Answer jonckheere(const DataTable& table, const ProcedureOptions& options) {
                  {"variance", trend.variance},
                  {"p_two_sided", two_sided_normal(trend.z())}};
   if (!options.has("order"))
-    answer.notes.emplace_back("The expected order was taken from the rows; order=a:b:c says it.");
+    answer.notes.emplace_back("The expected order was taken from the rows; order=a:b:c sets it.");
   flag_small_groups(answer);
   // One-sided at .05, as a two-sided test at .10.
   say_detectable(answer, "detectable_share", "a share of pairs in order",

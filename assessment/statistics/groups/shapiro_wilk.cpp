@@ -115,7 +115,8 @@ Answer shapiro(const DataTable& table, const ProcedureOptions&) {
   if (asked.reason == nullptr && table.group.empty()) asked.reason = why_not(asked.groups.groups.front());
   if (asked.reason != nullptr) return asked.refused("shapiro");
   Answer answer = asked.answer("shapiro", "Shapiro–Wilk, Royston's AS R94");
-  answer.notes.emplace_back("Small samples hide departures and large ones show trifles: choose no test by it.");
+  answer.notes.emplace_back(
+      "Small samples hide departures and large ones show trifles: do not choose a test by it.");
   if (table.group.empty()) {
     const ShapiroWilk test = shapiro_wilk(asked.groups.groups.front().values);
     answer.groups.clear();

@@ -163,7 +163,7 @@ Answer wilcoxon(const DataTable& table, const ProcedureOptions& options) {
                            in_words(test.smallest) + ".");
   }
   if (!shift.ci95)
-    answer.notes.emplace_back("With so few even the widest interval holds less than 95 %.");
+    answer.notes.emplace_back("With so few, even the widest interval holds less than 95 %.");
   else if (ties || test.zeros > 0)
     answer.notes.emplace_back("The interval takes no account of ties and zeros: it holds 95 % or more.");
   // P(D + D′ > 0) by Noether: V counts pairs of differences whose sum is positive.

@@ -156,7 +156,7 @@ Answer brown_forsythe(const DataTable& table, const ProcedureOptions& options) {
   tell_f(answer, test);
   for (const Group& group : asked.groups.groups)
     answer.rows.push_back({group.name, {{"sd", std::sqrt(spread_of(group.values).variance)}}});
-  answer.notes.emplace_back("Choose no test of means by it: Welch's needs no equal variances.");
+  answer.notes.emplace_back("Do not choose a test of means by it: Welch's does not need equal variances.");
   say_detectable(answer, "detectable_f", "Cohen's f of the distances",
                  detectable_f(static_cast<double>(asked.groups.groups.size()), static_cast<double>(asked.groups.n),
                               kPlannedPower, kAlpha),

@@ -88,7 +88,7 @@ std::vector<std::vector<double>> paths_of(const std::vector<Series>& persons, co
 void note_beyond(Answer& answer, const std::vector<Series>& persons, std::size_t attempts) {
   if (std::any_of(persons.begin(), persons.end(), [&](const Series& one) { return one.values.size() > attempts; }))
     answer.notes.push_back("What comes after attempt " + std::to_string(attempts) +
-                           " declares nobody: the error is held over that many attempts.");
+                           " declares nobody: the error is controlled over that many attempts.");
 }
 
 }  // namespace

@@ -98,8 +98,8 @@ Answer decay(const DataTable& table, const DecayOptions& options) {
   if (const auto slope = per_doubling(persons)) answer.more.push_back({"loss_per_doubling", *slope});
   if (losses.size() < series.persons.size())
     answer.notes.push_back(std::to_string(series.persons.size() - losses.size()) +
-                           " persons never paused, or did not come back, and tell nothing.");
-  answer.notes.emplace_back("Whoever does not come back is not in it: the loss of those may be larger.");
+                           " persons never paused, or did not come back, and contribute nothing.");
+  answer.notes.emplace_back("Those who do not come back are not in it: their loss may be larger.");
   return settled(std::move(answer));
 }
 

@@ -45,8 +45,8 @@ void add_log_odds(Answer& answer, const LogisticFit& fit, const FixedEffects& fi
 Answer no_fit(const PersonRows& rows, LogisticFailure failure) {
   if (failure == LogisticFailure::separated)
     return no_repeated_persons(kLogistic, rows, "perfect_separation",
-                               "Passes and failures go with persons, groups or x throughout.");
-  return no_repeated_persons(kLogistic, rows, "no_convergence", "The likelihood has no top that was found.");
+                               "Passes and failures are fully determined by persons, groups or x.");
+  return no_repeated_persons(kLogistic, rows, "no_convergence", "No maximum of the likelihood was found.");
 }
 
 }  // namespace
@@ -83,8 +83,7 @@ Answer logistic_mixed(const DataTable& table, const LogisticMixedOptions& option
   answer.statistic = values[2].value;
   answer.p_value = values[3].value;
   answer.ci95 = Interval{values[4].value, values[5].value};
-  if (fit.sd == 0.0)
-    answer.notes.emplace_back("The fit is singular: persons differ no more than chance lets them.");
+  if (fit.sd == 0.0) answer.notes.emplace_back("The fit is singular: persons differ no more than by chance.");
   return settled(std::move(answer));
 }
 

@@ -81,7 +81,7 @@ Answer mixed_model(const DataTable& table, const MixedModelOptions& options) {
     return no_model(rows, "too_few", "There must be more values than random effects.");
   const Spread spread = spread_of(rows.y);
   if (!spread.varies) return no_model(rows, "no_variation", "The values do not vary.");
-  if (!spread.computable) return no_model(rows, "no_finite_answer", "The values are too large or too much alike.");
+  if (!spread.computable) return no_model(rows, "no_finite_answer", "The values are too large or vary too little.");
   const FixedEffects fixed = fixed_effects(rows, options.interaction);
   const double unit = std::sqrt(spread.variance);
   MixedRows standard;
@@ -94,9 +94,8 @@ Answer mixed_model(const DataTable& table, const MixedModelOptions& options) {
     for (const double x : rows.x) standard.slope.push_back((x - fixed.centre) / fixed.size);
   const auto fit = fit_mixed(standard, fixed.weights);
   if (!fit)
-    return no_model(
-        rows, "no_convergence",
-        "Effects cannot be told apart (one follows from the others), or no residual variation is left.");
+    return no_model(rows, "no_convergence",
+                    "Effects cannot be separated (one follows from the others), or no residual variation is left.");
   Answer answer = of_repeated_persons(kMixed, rows);
   answer.method = std::string("linear mixed model by REML, random intercept ") + (slopes ? "and slope " : "") +
                   "per person, Satterthwaite's df";
@@ -109,7 +108,7 @@ Answer mixed_model(const DataTable& table, const MixedModelOptions& options) {
   bear_out(answer, fixed, rows);
   if (fit->singular)
     answer.notes.emplace_back(
-        "The fit is singular: a variance between persons is 0, or intercept and slope go with each other wholly.");
+        "The fit is singular: a variance between persons is 0, or intercept and slope are fully correlated.");
   return settled(std::move(answer));
 }
 

@@ -23,7 +23,7 @@ std::optional<Answer> unfit_for_model(const char* test, const PersonRows& rows) 
     const Spread spread = spread_of(rows.x);
     if (!spread.varies) return no_repeated_persons(test, rows, "no_variation", "x does not vary.");
     if (!spread.computable)
-      return no_repeated_persons(test, rows, "no_finite_answer", "x is too large or too much alike.");
+      return no_repeated_persons(test, rows, "no_finite_answer", "x is too large or varies too little.");
   }
   return std::nullopt;
 }
@@ -39,7 +39,7 @@ Answer of_repeated_persons(const char* test, const PersonRows& rows) {
     answer.notes.emplace_back("The n of a group counts its values; the n of the answer counts persons.");
   }
   if (rows.group_within)
-    answer.notes.emplace_back("Some persons stand in more than one group: they are compared with themselves.");
+    answer.notes.emplace_back("Some persons are in more than one group: they are compared with themselves.");
   return answer;
 }
 

@@ -88,14 +88,14 @@ void add_corrected(Answer& answer, const Relation& relation) {
   }
   answer.notes.emplace_back("The corrected correlation takes the reliabilities given as known exactly.");
   if (std::abs(*answer.estimate / root) > 1.0)
-    answer.notes.emplace_back("Corrected, it is beyond 1: by chance, or since a reliability given is too low.");
+    answer.notes.emplace_back("Corrected, it is beyond 1: by chance, or because a reliability given is too low.");
 }
 
 void add_interval(Answer& answer, double r, double standard_error, std::size_t least) {
   answer.ci95 = fisher_z_interval(r, standard_error);
   if (answer.ci95) return;
   answer.notes.push_back(answer.n < least ? "There is no interval for so few persons."
-                                          : "All stand on one line: the interval would have no width.");
+                                          : "All lie on one line: the interval would have no width.");
 }
 
 // t with n − 2 degrees of freedom.

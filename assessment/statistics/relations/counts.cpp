@@ -202,7 +202,7 @@ Answer poisson(const DataTable& table, const ProcedureOptions& options) {
   }
   if (overdispersed(two))
     answer.notes.emplace_back(
-        "Persons differ more than Poisson's distribution lets them: this interval is too narrow; take "
+        "Persons differ more than Poisson's distribution allows: this interval is too narrow; take "
         "negative_binomial.");
   return settled(std::move(answer));
 }
@@ -212,7 +212,7 @@ Answer negative_binomial(const DataTable& table, const ProcedureOptions& options
   if (two.reason != nullptr) return refused("negative_binomial", two.reason, two.rows, two.note);
   if (sum_of(two.first.counts) == 0.0 || sum_of(two.second.counts) == 0.0)
     return refused("negative_binomial", "perfect_separation", two.rows,
-                   "A group has no event; poisson is exact then.");
+                   "A group has no event; poisson is exact in that case.");
   const NegativeBinomial fit = negative_binomial_of(two.first, two.second);
   Answer answer = begun("negative_binomial", two.rows);
   answer.method = "negative binomial regression by maximum likelihood, one dispersion, Wald test and interval";
@@ -226,7 +226,7 @@ Answer negative_binomial(const DataTable& table, const ProcedureOptions& options
   if (fit.theta) {
     answer.more.push_back({"theta", *fit.theta});
   } else {
-    answer.notes.emplace_back("Persons differ no more than by chance: θ is without bound, the fit is Poisson's.");
+    answer.notes.emplace_back("Persons differ no more than by chance: θ is unbounded, the fit is Poisson's.");
   }
   warn_of_interval(answer, 50);
   warn_of_test(answer, 100);

@@ -184,7 +184,7 @@ Answer delong(const DataTable& table, const ProcedureOptions& options) {
     answer.p_value = 2.0 * normal_upper(std::abs(*answer.statistic));
     answer.ci95 = Interval{std::max(-1.0, difference - half), std::min(1.0, difference + half)};
   } else {
-    answer.notes.emplace_back("Both values place every pair of persons alike: there is nothing to test.");
+    answer.notes.emplace_back("Both values order every pair of persons alike: there is nothing to test.");
   }
   warn_of_interval(answer, 20);
   return settled(std::move(answer));

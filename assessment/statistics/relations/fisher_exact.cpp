@@ -144,7 +144,7 @@ Answer fisher_exact(const DataTable& table, const ProcedureOptions& options) {
         "The odds ratio has no upper bound here: `odds_ratio_low` is its lower one (97.5 %, one-sided).");
   }
   if (!exact.odds_low)
-    answer.notes.emplace_back("All had the same outcome: these data tell nothing about the odds ratio.");
+    answer.notes.emplace_back("All had the same outcome: these data say nothing about the odds ratio.");
   return settled(std::move(answer));
 }
 

@@ -149,11 +149,11 @@ void tell_model(Answer& answer, const DataTable& table, std::size_t lacking, std
   if (!table.x.empty() && on_line < lacking)
     answer.notes.push_back(std::to_string(lacking - on_line) +
                            " of those without a value are drawn from their group's level: their x is not known, or "
-                           "too few show how the value goes with it.");
+                           "too few show how the value depends on it.");
   answer.notes.emplace_back(
       on_line > 0
-          ? "It holds where, in a group and given x, who lacks a value would have had such values as others."
-          : "It holds where, in a group, who lacks a value would have had such values as others.");
+          ? "It holds where, in a group and given x, those who lack a value would have had values like the others'."
+          : "It holds where, in a group, those who lack a value would have had values like the others'.");
 }
 
 }  // namespace
@@ -202,7 +202,7 @@ ImputedComparison imputed_comparison(const DataTable& table, const ProcedureOpti
                          : !spread.varies                   ? "no_variation_within"
                                                             : nullptr;
     if (reason != nullptr) {
-      made.answer = refused("imputed", reason, rows, "Each group needs five values, and not all alike.");
+      made.answer = refused("imputed", reason, rows, "Each group needs five values, not all the same.");
       return made;
     }
     if (line_of(groups[g].pair_x, groups[g].pair_y))

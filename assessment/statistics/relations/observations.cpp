@@ -135,13 +135,13 @@ bool all_counts(const std::vector<double>& values) {
 
 void warn_of_interval(Answer& answer, std::size_t enough) {
   if (!answer.ci95 || persons_as_if_equal(answer) >= enough) return;
-  answer.notes.push_back("Simulated, intervals like this of fewer than " + std::to_string(enough) +
-                         " persons held the truth in less than 93 of 100 samples.");
+  answer.notes.push_back("In simulations, intervals like this with fewer than " + std::to_string(enough) +
+                         " persons held the truth in fewer than 93 of 100 samples.");
 }
 
 void warn_of_test(Answer& answer, std::size_t enough) {
   if (!answer.p_value || persons_as_if_equal(answer) >= enough) return;
-  answer.notes.push_back("Simulated, this test of fewer than " + std::to_string(enough) +
+  answer.notes.push_back("In simulations, this test with fewer than " + std::to_string(enough) +
                          " persons rejected more than 6 of 100 true equalities at 5 %.");
 }
 

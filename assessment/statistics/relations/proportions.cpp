@@ -90,7 +90,7 @@ Answer one_proportion(const DataTable& table, const ProcedureOptions& options) {
     answer.more.push_back({"wilson_coverage_at_estimate", coverage});
     if (coverage < 0.93)
       answer.notes.emplace_back(
-          "At this n, Wilson's interval holds a share like this one in less than 93 of 100 samples: quote Clopper "
+          "At this n, Wilson's interval holds a share like this one in fewer than 93 of 100 samples: quote Clopper "
           "and Pearson's.");
   }
   if (!table.group.empty())

@@ -32,7 +32,7 @@ constexpr ProcedureOption kHorizon[] = {
 };
 constexpr ProcedureOption kLimit[] = {
     kOrderOnly[0],
-    {"limit", "a number", "values there or beyond are censored; it has to be given"},
+    {"limit", "a number", "values there or beyond are censored; required"},
     {"side", "upper, lower", "at which end values are censored; upper unless given"},
 };
 constexpr ProcedureOption kDraws[] = {
@@ -102,8 +102,9 @@ constexpr Procedure kRelationsProcedures[] = {
      "value by group; two groups", kGrouped, kLimit, tobit,
      "Tobin, Econometrica 26 (1958) 24; Olsen, Econometrica 46 (1978) 1211", "AER tobit; 1e-6"},
     {"imputed",
-     "Difference of two means where some persons have no value: multiple imputation; take it beside who has one.",
-     "value by group, empty where it is missing; x: what values go with, optional; two groups", kGrouped,
+     "Difference of two means where some persons have no value: multiple imputation; take it alongside those who "
+     "have one.",
+     "value by group, empty where it is missing; x: what the values depend on, optional; two groups", kGrouped,
      kImputations, imputed,
      "Rubin, Multiple Imputation for Nonresponse in Surveys, 1987; Barnard, Rubin, Biometrika 86 (1999) 948",
      "mice pool.scalar, 1e-9; R t.test of each completed table, 1e-9; its draws against R lm and Student's t of "

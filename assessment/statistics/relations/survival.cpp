@@ -58,7 +58,8 @@ FollowedGroups followed_groups(const DataTable& table, const ProcedureOptions& o
              !all_zero_or_one(rows.x)) {
     found.reason = "bad_value";
     found.note =
-        "A time is 0 or more; x is 1 where the event came then, 0 where the person was not followed longer.";
+        "A time is 0 or more; x is 1 where the event happened then, 0 where the person was not followed any "
+        "longer.";
   } else if (std::find(rows.x.begin(), rows.x.end(), 1.0) == rows.x.end()) {
     found.reason = "no_event";
   }
@@ -293,7 +294,7 @@ Answer rmst(const DataTable& table, const ProcedureOptions& options) {
   std::vector<RestrictedMean> means;
   for (std::size_t g = 0; g < followed.groups.size(); ++g) {
     if (!reaches(followed.groups[g], tau))
-      return refused("rmst", "bad_value", followed.rows, "tau is later than anybody of a group was followed.");
+      return refused("rmst", "bad_value", followed.rows, "tau is later than anybody in a group was followed.");
     means.push_back(restricted_mean(kaplan_meier_of(followed.groups[g]), tau));
     answer.rows.push_back({answer.groups[g].name, {{"mean", means[g].mean}, {"se", means[g].standard_error}}});
   }
@@ -304,7 +305,7 @@ Answer rmst(const DataTable& table, const ProcedureOptions& options) {
   answer.estimate = two ? means[0].mean - means[1].mean : means[0].mean;
   const double error = two ? std::hypot(means[0].standard_error, means[1].standard_error) : means[0].standard_error;
   if (!(error > 0.0)) {
-    answer.notes.emplace_back("No event before tau leaves a doubt: there is no interval.");
+    answer.notes.emplace_back("No event before tau leaves any uncertainty: there is no interval.");
     return settled(std::move(answer));
   }
   const double half = normal_quantile_of(0.975) * error;

@@ -86,12 +86,12 @@ std::string turn_items(CompleteTable& items, const ItemScale& scale) {
   if (scale.low && scale.high && !(*scale.low < *scale.high)) return "The option low is not below high.";
   for (const double value : items.values)
     if ((scale.low && value < *scale.low) || (scale.high && value > *scale.high))
-      return "An answer lies outside of the scale from low to high.";
+      return "An answer lies outside the scale from low to high.";
   if (scale.reverse.empty()) return {};
   if (!scale.low || !scale.high) return "The option reverse needs the ends of the scale, low and high.";
   for (const std::string& name : scale.reverse) {
     const auto found = std::find(items.columns.begin(), items.columns.end(), name);
-    if (found == items.columns.end()) return "The option reverse names what is no item.";
+    if (found == items.columns.end()) return "The option reverse names something that is not an item.";
     const auto j = static_cast<std::size_t>(found - items.columns.begin());
     for (std::size_t row = 0; row < items.rows; ++row) {
       double& value = items.values[row * items.columns.size() + j];
@@ -152,7 +152,7 @@ Answer alpha(CompleteTable items, const ItemScale& scale) {
   if (const std::optional<double> bound = lambda6_of(correlation))
     answer.more.push_back({"lambda6", *bound});
   else
-    answer.notes.emplace_back("Lambda 6 is left out: an item is told by the others.");
+    answer.notes.emplace_back("Lambda 6 is left out: an item is determined by the others.");
   answer.rows = item_rows(items, covariance);
   note_items(answer);
   if (!constant.empty()) answer.notes.push_back(said_of_constant_items(constant));

@@ -15,7 +15,7 @@ void say_of_proportional_bias(Answer& answer, const std::vector<double>& differe
                               const std::vector<double>& means) {
   const Spread of_means = spread_of(means), of_differences = spread_of(differences);
   if (means.size() < 3 || !of_means.computable || of_means.variance == 0.0) {
-    answer.notes.emplace_back("Whether differences grow with what is measured cannot be told.");
+    answer.notes.emplace_back("It cannot be determined whether differences grow with what is measured.");
     return;
   }
   const double n = static_cast<double>(means.size()), spread = of_means.variance * (n - 1.0);

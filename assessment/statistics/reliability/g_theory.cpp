@@ -228,9 +228,9 @@ Answer three_way(const DataTable& table, double target) {
   const Crossed design = crossed(table);
   if (const char* reason = smaller_than(design.table, 2, 2)) return refused_table("g_theory", reason, design.table);
   if (design.cases < 2 || design.occasions < 2)
-    return refused_table("g_theory", "too_few", design.table, "Two cases and two occasions are the least.");
+    return refused_table("g_theory", "too_few", design.table, "At least two cases and two occasions are needed.");
   if (design.table.columns.size() != design.cases * design.occasions)
-    return refused_table("g_theory", "unbalanced", design.table, "Every case has to be there on every occasion.");
+    return refused_table("g_theory", "unbalanced", design.table, "Every case has to occur on every occasion.");
   const Cube cube = cube_of(design);
   const CubeSquares squares = mean_squares_of(cube);
   Answer answer = answer_of(components_of(squares, cube), static_cast<double>(cube.cases),

@@ -200,7 +200,8 @@ Answer grim(const ReportedScale& reported) {
   answer.more = {{"nearest_mean", std::round(reported.mean * answers) / answers}};
   add_other_n(answer, reported, 1, mean_is_possible);
   if (2.0 * half_of_last_digit(reported.mean_decimals) * answers >= 1.0)
-    answer.notes.emplace_back("With so many answers, any mean of so few decimals is possible: this tells nothing.");
+    answer.notes.emplace_back(
+        "With so many answers, any mean with so few decimals is possible: this says nothing.");
   if (!possible)
     answer.notes.emplace_back("Not possible says that mean, n or items differ from what is reported, not why.");
   return settled(std::move(answer));
@@ -217,7 +218,7 @@ Answer grimmer(const ReportedScale& reported) {
   add_other_n(answer, reported, 2, [](const ReportedScale& one) { return sd_is_possible(one) != Possible::kNo; });
   if (possible == Possible::kNotRefuted)
     answer.notes.emplace_back(
-        "There are too many sets of numbers to look through: this is not refuted, not shown.");
+        "There are too many sets of numbers to look through: this is neither refuted nor shown.");
   if (possible == Possible::kNo)
     answer.notes.emplace_back("Not possible says that mean, SD, n or items differ from what is reported, not why.");
   return settled(std::move(answer));

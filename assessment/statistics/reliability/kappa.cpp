@@ -114,7 +114,7 @@ void say_of_two_raters(Answer& answer, const Kappa& found) {
     answer.ci95 = Interval{std::max(-1.0, found.value - kTwoSided95 * found.se),
                            std::min(1.0, found.value + kTwoSided95 * found.se)};
   else
-    answer.notes.emplace_back("The standard error is 0 here: an interval would tell nothing.");
+    answer.notes.emplace_back("The standard error is 0 here: an interval would say nothing.");
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ void say_fit(Answer& answer, const OneFactor& factor) {
     }
   }
   if (factor.at_bound)
-    answer.notes.emplace_back("An item is all but the factor itself (Heywood case): do not build on the loadings.");
+    answer.notes.emplace_back("An item is almost the factor itself (Heywood case): do not rely on the loadings.");
 }
 
 }  // namespace
@@ -111,8 +111,9 @@ Answer omega(CompleteTable items, const ItemScale& scale, std::size_t resamples,
   for (std::size_t j = 0; j < items.columns.size(); ++j) columns.push_back(items.column(j));
   const std::optional<Omega> found = omega_of(columns);
   if (!found)
-    return refused_table("omega", "no_convergence", items,
-                         "No factor can be fitted: items tell each other, or there are too few persons for them.");
+    return refused_table(
+        "omega", "no_convergence", items,
+        "No factor can be fitted: items determine each other, or there are too few persons for them.");
   Answer answer;
   answer.test = "omega";
   answer.method = "McDonald's omega total of standardised items, one factor by maximum likelihood";

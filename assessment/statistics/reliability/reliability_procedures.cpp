@@ -223,10 +223,10 @@ constexpr Procedure kReliability[] = {
      "balanced",
      kPersonsByCases, kGTheoryOptions, run_g_theory, "Brennan, Generalizability Theory, 2001",
      "Shrout and Fleiss's table and R's aov, 1e-9"},
-    {"grim", "Whether a reported mean can come from so many whole numbers.", "no data: the options say it all",
+    {"grim", "Whether a reported mean can come from so many whole numbers.", "no data: the options say everything",
      kNothing, kGrimOptions, run_grim, "Brown, Heathers, Soc Psychol Pers Sci 2017;8:363", "enumeration, equal"},
     {"grimmer", "Whether a reported mean and standard deviation can come from so many whole numbers.",
-     "no data: the options say it all", kNothing, kGrimmerOptions, run_grimmer,
+     "no data: the options say everything", kNothing, kGrimmerOptions, run_grimmer,
      "Anaya, PeerJ Preprints 2016;4:e2400v1", "enumeration, equal"},
 };
 

@@ -96,7 +96,7 @@ Answer contrasting_groups(const ContrastingGroups& groups, std::size_t draws, st
     const bool turned = groups.higher_is_better ? a.mean >= b.mean : a.mean <= b.mean;
     return refused_groups(groups, "no_crossing",
                           turned
-                              ? "The competent group does not score better than the other: no cut tells them apart."
+                              ? "The competent group does not score better than the other: no cut separates them."
                               : "The groups overlap so far that no cut lies between their means.");
   }
   Answer answer;

@@ -251,7 +251,7 @@ constexpr Procedure kStandards[] = {
     {"borderline", "A cut from scores and a global rating of each person: the score of the borderline person.",
      "value (the score) and x (the rating), a row a person", Needs{.x = true}, kBorderlineOptions, run_borderline,
      "Kramer et al., Med Educ 2003;37:132; Livingston, Zieky, Passing Scores, 1982", "R's lm, 1e-9"},
-    {"angoff", "A cut from judges who say how likely somebody just good enough gets each item right.",
+    {"angoff", "A cut from judges who say how likely somebody who is just good enough is to get each item right.",
      "value (the share) by subject (the item) and rater (the judge), by x (the round) where there are several",
      Needs{.subject = true, .rater = true}, kAngoffOptions, run_angoff,
      "Angoff, in Thorndike, Educational Measurement, 1971; Cizek, Bunch, Standard Setting, 2007",

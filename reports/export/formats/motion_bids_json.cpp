@@ -111,13 +111,12 @@ std::vector<FormatFile> motion_bids_head(const std::vector<std::string>& subject
                             {"GeneratedBy", {{{"Name", "Seldinger"}}}}};
   std::string participants = "participant_id\n";
   for (const std::string& one : std::set<std::string>(subjects.begin(), subjects.end())) participants += one + "\n";
-  return {
-      {std::string(kRoot) + "dataset_description.json", description.dump(2) + "\n"},
-      {std::string(kRoot) + "participants.tsv", participants},
-      {std::string(kRoot) + "README",
-       "Attempts at simulated punctures. Training data: nothing here is about a patient's procedure. attempts.csv "
-       "of the same export tells each attempt's conditions and metrics; its names are those of this data set, "
-       "without the hyphen.\n"}};
+  return {{std::string(kRoot) + "dataset_description.json", description.dump(2) + "\n"},
+          {std::string(kRoot) + "participants.tsv", participants},
+          {std::string(kRoot) + "README",
+           "Attempts at simulated punctures. Training data: nothing here is about a patient's procedure. "
+           "attempts.csv of the same export has each attempt's conditions and metrics; its names are those of this "
+           "data set, without the hyphen.\n"}};
 }
 
 }  // namespace seldinger::reports

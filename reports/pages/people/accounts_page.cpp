@@ -81,12 +81,10 @@ std::string password_page(std::string_view link, std::string_view login_name, st
       .name(login_name)
       .raw(
           "</strong></p>\n<p><label for=\"password\">New password</label>\n<input id=\"password\" "
-          "name=\"password\" "
-          "type=\"password\" autocomplete=\"new-password\" minlength=\"8\" maxlength=\"128\" required "
-          "autofocus></p>\n"
-          "<p><label for=\"again\">The same again</label>\n<input id=\"again\" name=\"again\" type=\"password\" "
-          "autocomplete=\"new-password\" minlength=\"8\" maxlength=\"128\" required></p>\n"
-          "<p><button>Set it</button></p>\n</form>\n</div>\n");
+          "name=\"password\" type=\"password\" autocomplete=\"new-password\" minlength=\"8\" maxlength=\"128\" "
+          "required autofocus></p>\n<p><label for=\"again\">Repeat password</label>\n<input id=\"again\" "
+          "name=\"again\" type=\"password\" autocomplete=\"new-password\" minlength=\"8\" maxlength=\"128\" "
+          "required></p>\n<p><button>Set it</button></p>\n</form>\n</div>\n");
   return page("Set your password", Visitor{}, html);
 }
 

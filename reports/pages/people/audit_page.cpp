@@ -44,9 +44,8 @@ std::string audit_page(const Visitor& visitor, const AuditView& view) {
     html.raw("<p class=\"note\"><span class=\"yes\">Every row is as it was written.</span> ")
         .text(std::to_string(view.count));
     html.raw(
-        " rows; each carries the hash of itself and of the row before it. What that shows and what it cannot is "
-        "told "
-        "in docs/keeping.md.</p>\n");
+        " rows; each carries its own hash and that of the row before it. docs/keeping.md says what that shows and "
+        "what it cannot.</p>\n");
   } else {
     html.raw("<div class=\"problem\" role=\"alert\">\n<p>The log was changed after it was written:</p>\n<ul>\n");
     for (const std::string& one : view.problems) html.raw("<li>").text(one).raw("</li>\n");

@@ -27,22 +27,18 @@ void add_import_form(Html& html, const Visitor& visitor, std::string_view proble
   html.raw(
       "<p><label for=\"title\">Title of the case</label>\n<input id=\"title\" name=\"title\" maxlength=\"100\" "
       "autocomplete=\"off\" aria-describedby=\"about-title\">\n<span class=\"why\" id=\"about-title\">Never a "
-      "patient’s "
-      "name. Left out, the case is called after its size.</span></p>\n<p><label for=\"modality\">Practised "
-      "with</label>\n<select id=\"modality\" name=\"modality\"><option value=\"mpr\">slices of the "
-      "CT</option><option "
-      "value=\"xray\">fluoroscopy</option><option value=\"ultrasound\">ultrasound</option></select></p>\n<p><label "
-      "for=\"position\">The patient lies</label>\n<select id=\"position\" name=\"position\"><option "
-      "value=\"supine\">on the back</option><option value=\"prone\">face down</option><option "
-      "value=\"lateral_left\">on "
-      "the left side</option><option value=\"lateral_right\">on the right side</option></select></p>\n<p><label "
+      "patient’s name. If left out, the case is named after its size.</span></p>\n<p><label "
+      "for=\"modality\">Practised with</label>\n<select id=\"modality\" name=\"modality\"><option "
+      "value=\"mpr\">slices of the CT</option><option value=\"xray\">fluoroscopy</option><option "
+      "value=\"ultrasound\">ultrasound</option></select></p>\n<p><label for=\"position\">The patient "
+      "lies</label>\n<select id=\"position\" name=\"position\"><option value=\"supine\">on the "
+      "back</option><option value=\"prone\">face down</option><option value=\"lateral_left\">on the left "
+      "side</option><option value=\"lateral_right\">on the right side</option></select></p>\n<p><label "
       "for=\"face\">A face in the volume</label>\n<select id=\"face\" name=\"face\"><option value=\"refuse\">is "
       "refused</option><option value=\"crop\">is cut off below the chin</option><option value=\"deface\">has its "
-      "front "
-      "taken away</option></select></p>\n<p><label class=\"tick\"><input type=\"checkbox\" "
-      "name=\"no_burned_in_text\" "
-      "value=\"yes\"> I looked through the slices and saw no text in them</label></p>\n<p><button>Choose its "
-      "files</button></p>\n</form>\n</section>\n");
+      "front taken away</option></select></p>\n<p><label class=\"tick\"><input type=\"checkbox\" "
+      "name=\"no_burned_in_text\" value=\"yes\"> I looked through the slices and saw no text in "
+      "them</label></p>\n<p><button>Choose its files</button></p>\n</form>\n</section>\n");
 }
 
 void add_results(Html& html, const JobView& job) {
@@ -64,7 +60,7 @@ void add_results(Html& html, const JobView& job) {
           .text(one.name)
           .raw("</a>");
     html.raw(" <span class=\"why\">").text(bytes_text(one.bytes));
-    if (one.too_large) html.raw(", too large for a page: take it with <code>seldinger export</code>");
+    if (one.too_large) html.raw(", too large for a page: get it with <code>seldinger export</code>");
     html.raw("</span></li>\n");
   }
   html.raw("</ul>\n");
@@ -74,12 +70,11 @@ void add_receiving(Html& html, const JobView& job) {
   html.raw("<div data-send=\"/jobs/").text(job.job_id);
   html.raw(
       "\" hidden>\n<p><label for=\"folder\">The folder of a DICOM series</label>\n<input id=\"folder\" "
-      "type=\"file\" "
-      "webkitdirectory data-files></p>\n<p><label for=\"file\">Or one file: .nii, .nii.gz, .nrrd, .mha or "
-      "DICOM</label>\n"
-      "<input id=\"file\" type=\"file\" accept=\".nii,.gz,.nrrd,.mha,.dcm,application/dicom\" "
-      "data-files></p>\n</div>\n<noscript><p>Files are sent by a script, and none runs here. On the server itself "
-      "<code>seldinger import</code> reads them.</p></noscript>\n");
+      "type=\"file\" webkitdirectory data-files></p>\n<p><label for=\"file\">Or one file: .nii, .nii.gz, .nrrd, "
+      ".mha or DICOM</label>\n<input id=\"file\" type=\"file\" "
+      "accept=\".nii,.gz,.nrrd,.mha,.dcm,application/dicom\" data-files></p>\n</div>\n<noscript><p>Files are sent "
+      "by a script, and scripts do not run in this browser. On the server itself <code>seldinger import</code> "
+      "reads them.</p></noscript>\n");
 }
 
 }  // namespace
@@ -109,8 +104,7 @@ std::string jobs_page(const Visitor& visitor, std::span<const JobView> jobs, boo
                       std::string_view problem) {
   Html html;
   html.raw(
-      "<h1>Jobs</h1>\n<p class=\"sub\">Work that takes a while goes on here while you do something else, one job "
-      "at a "
+      "<h1>Jobs</h1>\n<p class=\"sub\">Work that takes a while runs here while you do something else, one job at a "
       "time. Only you see your jobs; they are kept for a week.</p>\n");
   if (may_import)
     add_import_form(html, visitor, problem);
@@ -119,7 +113,7 @@ std::string jobs_page(const Visitor& visitor, std::span<const JobView> jobs, boo
   html.raw("<section>\n<h2>Yours</h2>\n");
   if (jobs.empty()) {
     html.raw("<p>You have none.");
-    if (!may_import) html.raw(" A study’s page begins its report and its export.");
+    if (!may_import) html.raw(" A study’s page starts its report and its export.");
     html.raw("</p>\n");
   }
   if (!jobs.empty())

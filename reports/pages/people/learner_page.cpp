@@ -83,13 +83,11 @@ void add_record(Html& html, const casedb::CurriculumRecord& record, bool own, st
     rows.push_back({std::to_string(i + 1) + ". " + record.items[i].title, &record.items[i].graded});
   html.add(pass_chart(rows));
   html.raw(
-      "<div class=\"wide\">\n<table class=\"list learner\">\n<caption>Item by item. Beside the passes of all "
-      "graded "
-      "attempts "
-      "stands the 95 % interval of the share (Wilson); at few attempts it is wide.</caption>\n<thead><tr><th "
-      "scope=\"col\">Item</th><th scope=\"col\">State</th><th scope=\"col\" class=\"number\">Passed</th><th "
-      "scope=\"col\" class=\"number\">Last pass</th><th scope=\"col\" class=\"number\">Retention due</th><th "
-      "scope=\"col\">Missed most</th></tr></thead>\n<tbody>\n");
+      "<div class=\"wide\">\n<table class=\"list learner\">\n<caption>Item by item. The passes of all graded "
+      "attempts are followed by the 95 % interval of the share (Wilson); with few attempts it is "
+      "wide.</caption>\n<thead><tr><th scope=\"col\">Item</th><th scope=\"col\">State</th><th scope=\"col\" "
+      "class=\"number\">Passed</th><th scope=\"col\" class=\"number\">Last pass</th><th scope=\"col\" "
+      "class=\"number\">Retention due</th><th scope=\"col\">Missed most</th></tr></thead>\n<tbody>\n");
   for (std::size_t i = 0; i < record.items.size(); ++i) add_item(html, record, i);
   html.raw("</tbody>\n</table>\n</div>\n</section>\n");
 }
@@ -132,8 +130,7 @@ Html due_lines(const casedb::CurriculumRecord& record) {
     html.raw("<p><strong>Next: ").text(std::to_string(i + 1)).raw(". ").name(item.title).raw("</strong>, ");
     html.text(std::to_string(item.progress.passes_missing));
     html.text(item.progress.passes_missing == 1 ? " more pass" : " passes running");
-    html.raw(
-        " to be proficient. It is due because it is the first item that is open and not proficient yet.</p>\n");
+    html.raw(" to be proficient. It is due because it is the first open item that is not proficient yet.</p>\n");
   }
   return html;
 }

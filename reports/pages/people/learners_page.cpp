@@ -228,9 +228,8 @@ void add_rules(Html& html) {
         .text(assessment::rule_of(standing))
         .raw("</dd>\n");
   html.raw(
-      "</dl>\n<p class=\"note\">A state is worked out from stored attempts whenever this page is made. It "
-      "forecasts "
-      "nothing, and it says nothing of work on patients.</p>\n</section>\n");
+      "</dl>\n<p class=\"note\">A state is worked out from stored attempts whenever this page is made. It predicts "
+      "nothing, and says nothing about work on patients.</p>\n</section>\n");
 }
 
 }  // namespace
@@ -240,9 +239,8 @@ std::string learners_page(const Visitor& visitor, const LearnersView& view) {
   html.raw("<h1>Learners</h1>\n");
   if (view.learners.empty()) {
     html.raw(
-        "<div class=\"message\"><p>Nobody learns in a cohort that you may see by name. Whoever runs this library "
-        "adds "
-        "learners with <code>seldinger cohort enrol</code>.</p></div>\n");
+        "<div class=\"message\"><p>There are no learners in a cohort that you may see by name. Whoever runs this "
+        "library adds learners with <code>seldinger cohort enrol</code>.</p></div>\n");
     return page("Learners", visitor, html);
   }
   if (view.learners.front().records->empty()) {

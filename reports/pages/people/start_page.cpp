@@ -105,7 +105,7 @@ void add_in_need(Html& html, const std::vector<InNeed>& all, std::int64_t now_us
     return;
   }
   html.raw(
-      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Who needs somebody</caption>\n<thead><tr><th "
+      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Who needs help</caption>\n<thead><tr><th "
       "scope=\"col\">Learner</th><th scope=\"col\">State</th><th scope=\"col\">Why</th></tr></thead>\n<tbody>\n");
   for (std::size_t i = 0; i < std::min(count, kMostInNeed); ++i) {  // they stand first
     const InNeed& one = all[i];
@@ -129,8 +129,8 @@ void add_learners(Html& html, const LeaderStart& start) {
   const std::vector<InNeed> all = everybody(start);
   if (start.learners.empty())
     html.raw(
-        "<p>Nobody learns in a cohort that you may see by name. Whoever runs this library adds learners with "
-        "<code>seldinger cohort enrol</code>.</p>\n");
+        "<p>There are no learners in a cohort that you may see by name. Whoever runs this library adds learners "
+        "with <code>seldinger cohort enrol</code>.</p>\n");
   else if (all.empty())
     html.raw("<p>No curriculum is published, so nothing is due.</p>\n");
   if (!all.empty()) {
@@ -142,7 +142,7 @@ void add_learners(Html& html, const LeaderStart& start) {
 
 void add_reviews(Html& html, const std::vector<CaseInReview>& reviews) {
   html.raw("<section>\n<h2>Cases in review</h2>\n");
-  if (reviews.empty()) html.raw("<p>None waits.</p>\n");
+  if (reviews.empty()) html.raw("<p>None is waiting.</p>\n");
   if (!reviews.empty()) html.raw("<ul>\n");
   for (const CaseInReview& one : reviews) {
     html.raw("<li><a href=\"/cases/").text(one.case_id).raw("\">").name(one.title).raw("</a>: ");
@@ -161,7 +161,7 @@ void add_reviews(Html& html, const std::vector<CaseInReview>& reviews) {
 
 void add_uncommented(Html& html, const std::vector<AttemptView>& attempts) {
   if (attempts.empty()) return;
-  html.raw("<section>\n<h2>Not passed, and nobody has said anything yet</h2>\n<ul>\n");
+  html.raw("<section>\n<h2>Not passed, and no comment yet</h2>\n<ul>\n");
   for (const AttemptView& one : attempts) {
     html.raw("<li><a href=\"").text(attempt_path(one.row.attempt_id)).raw("\">").name(one.operator_label).raw(", ");
     html.name(one.row.case_title).raw("</a>, ").text(told_text(one.row.started_us)).raw("</li>\n");
@@ -180,11 +180,11 @@ void add_drafts(Html& html, const std::vector<std::string>& drafts) {
 std::string_view health_words(casedb::Health health) {
   switch (health) {
     case casedb::Health::ok:
-      return "The library takes what is stored.";
+      return "The library can be written.";
     case casedb::Health::moved:
-      return "The library is no longer in its folder, or another one is: nothing is stored.";
+      return "The library is no longer in its folder, or another one is there: nothing is stored.";
     case casedb::Health::full:
-      return "Less room is left than an import takes.";
+      return "There is less room left than an import needs.";
     case casedb::Health::read_only:
       return "The library cannot be written: nothing is stored.";
   }

@@ -81,7 +81,7 @@ void add_speed(Html& html, const casedb::StationUse& one) {
             [](const SeriesPoint& a, const SeriesPoint& b) { return a.x < b.x; });
   html.raw("<h3>").name(station_text(one.station)).raw("</h3>\n");
   if (chart.points.empty())
-    html.raw("<p>None of its attempts came to an end at which a distance is told.</p>\n");
+    html.raw("<p>None of its attempts reached an end at which a distance is measured.</p>\n");
   else
     html.add(series_chart(chart));
 }
@@ -115,7 +115,7 @@ void add_timing(Html& html, const casedb::StationTiming& one) {
   html.text(us_text(one.compute.quantile_ns(0.99)) + " (99 %)");
   html.raw("</dd>\n<dt>Scheduler</dt><dd>")
       .text(one.real_time ? "real time (SCHED_FIFO)"
-                          : "ordinary: `seldinger doctor` tells how to give it real time");
+                          : "ordinary: `seldinger doctor` says how to give it real time");
   html.raw("</dd>\n</dl>\n");
   html.add(shares_chart("How late the servo's ticks began at " + name + ", as shares of all ticks",
                         "Late by, µs (a tick is due every 1000 µs)", lateness_shares(one.latency)));
@@ -166,18 +166,15 @@ std::vector<TimingShare> frame_shares(std::span<const double> window_hz) {
 std::string stations_page(const Visitor& visitor, std::span<const casedb::StationUse> stations) {
   Html html;
   html.raw(
-      "<h1>Stations</h1>\n<p class=\"sub\">What your programmes did at each workstation. It is called as it was "
-      "named "
+      "<h1>Stations</h1>\n<p class=\"sub\">What your programmes did at each workstation. Each has the name given "
       "when the trainer was started there (<code>seldinger train --station-name NAME</code>).</p>\n");
   if (stations.empty()) {
-    html.raw("<p>Nobody of your programmes has made an attempt yet.</p>\n");
+    html.raw("<p>Nobody in your programmes has made an attempt yet.</p>\n");
     return page("Stations", visitor, html);
   }
   html.raw(
           "<div class=\"wide\">\n<table class=\"list\">\n<caption>Hours, attempts and people; medians and hits are "
-          "of "
-          "the "
-          "newest attempts, at most ")
+          "for the newest attempts, at most ")
       .text(std::to_string(casedb::kStationResults));
   html.raw(
       "</caption>\n<thead><tr><th scope=\"col\">Station</th><th scope=\"col\" class=\"number\">Hours</th><th "

@@ -84,9 +84,8 @@ void add_plan(Html& html, const casedb::StoredPlan& stored) {
 
 void add_blinded(Html& html, const casedb::BlindedCounts& counts) {
   html.raw(
-      "<section>\n<h2>So far</h2>\n<p class=\"note\">Before the freeze there are counts of all together: nobody is "
-      "in "
-      "a group, and no outcome is told.</p>\n<dl class=\"outcome\">\n");
+      "<section>\n<h2>So far</h2>\n<p class=\"note\">Before the freeze there are only counts of all together: "
+      "nobody is in a group, and no outcome is shown.</p>\n<dl class=\"outcome\">\n");
   for (const auto& [name, count] : {std::pair{"Consent", counts.consenting},
                                     {"Have made an attempt at the plan’s cases", counts.with_attempts},
                                     {"Attempts at them", counts.attempts}}) {
@@ -122,13 +121,12 @@ void add_flow(Html& html, const StudyView& view) {
 // Of each visit how many have made it, and who should.
 void add_visits(Html& html, const StudyView& view) {
   html.raw(
-      "<section>\n<h2>Whether the data are whole</h2>\n<div class=\"wide\">\n<table "
-      "class=\"list\">\n<caption>Visits "
-      "of those who are in; made means an attempt at a case of the plan, whatever came of "
-      "it</caption>\n<thead><tr><th "
-      "scope=\"col\">Visit</th><th scope=\"col\" class=\"number\">Made</th><th scope=\"col\" "
-      "class=\"number\">Ahead</th><th scope=\"col\" class=\"number\">Due</th><th scope=\"col\" "
-      "class=\"number\">Missed</th><th scope=\"col\">Due or missed by</th></tr></thead>\n<tbody>\n");
+      "<section>\n<h2>Whether the data are complete</h2>\n<div class=\"wide\">\n<table "
+      "class=\"list\">\n<caption>Visits of those who are enrolled; made means an attempt at a case of the plan, "
+      "whatever came of it</caption>\n<thead><tr><th scope=\"col\">Visit</th><th scope=\"col\" "
+      "class=\"number\">Made</th><th scope=\"col\" class=\"number\">Ahead</th><th scope=\"col\" "
+      "class=\"number\">Due</th><th scope=\"col\" class=\"number\">Missed</th><th scope=\"col\">Due or missed "
+      "by</th></tr></thead>\n<tbody>\n");
   for (const study::Visit& visit : view.plan->plan.visits) {
     std::map<casedb::VisitState, int> counts;
     std::string owing;
@@ -158,9 +156,9 @@ void add_people_in(Html& html, const StudyView& view) {
     return;
   }
   html.raw(
-      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Only who consents now, by pseudonym</caption>\n"
-      "<thead><tr><th scope=\"col\">Pseudonym</th><th scope=\"col\">Group</th><th scope=\"col\">Stratum</th><th "
-      "scope=\"col\">Enrolled</th></tr></thead>\n<tbody>\n");
+      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Only those who consent now, by "
+      "pseudonym</caption>\n<thead><tr><th scope=\"col\">Pseudonym</th><th scope=\"col\">Group</th><th "
+      "scope=\"col\">Stratum</th><th scope=\"col\">Enrolled</th></tr></thead>\n<tbody>\n");
   for (const casedb::StudyEnrolment& one : view.enrolments) {
     html.raw("<tr><th scope=\"row\">").text(one.pseudonym).raw("</th><td data-label=\"Group\">").text(one.group);
     html.raw("</td><td data-label=\"Stratum\">").text(one.stratum.empty() ? "—" : one.stratum);
@@ -204,7 +202,7 @@ void add_what_next(Html& html, const Visitor& visitor, const StudyView& view) {
   }
   if (!view.plan || view.plan->frozen()) {
     html.raw("<p class=\"note\">");
-    if (view.plan) html.raw("The export tells outcomes by person: it is a look, too. ");
+    if (view.plan) html.raw("The export shows outcomes by person: it is a look, too. ");
     html.raw(
         "It holds the attempts of those who consent, without names; their numbers have two significant "
         "digits.</p>\n");

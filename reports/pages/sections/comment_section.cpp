@@ -24,11 +24,11 @@ Html comment_section(const AttemptView& attempt, const std::string& form_token) 
       "<p><label for=\"at\">At second</label>\n<input id=\"at\" name=\"at\" inputmode=\"decimal\" "
       "value=\"0\"></p>\n");
   html.raw("<p class=\"why\">From 0 to ").text(number_text(attempt.row.duration_s, 1));
-  html.raw(", as the course above counts; the trainee reads it there.</p>\n");
+  html.raw(", as the course above counts; the trainee sees it there.</p>\n");
   html.raw(
       "<p><label for=\"text\">Comment</label>\n<textarea id=\"text\" name=\"text\" rows=\"3\" maxlength=\"500\" "
       "required>");
-  return html.raw("</textarea></p>\n<p><button>Say it</button></p>\n</form>\n</section>\n");
+  return html.raw("</textarea></p>\n<p><button>Add comment</button></p>\n</form>\n</section>\n");
 }
 
 }  // namespace seldinger::reports

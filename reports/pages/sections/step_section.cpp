@@ -70,12 +70,12 @@ Html step_section(std::span<const StepResult> steps) {
   if (!asked.empty()) {
     add_legend(html, steps);
     html.raw(
-        "<table>\n<caption>Those that were asked for</caption>\n<thead><tr><th scope=\"col\">Step</th><th "
-        "scope=\"col\" class=\"number\">When</th><th scope=\"col\">Told as</th></tr></thead>\n<tbody>\n");
+        "<table>\n<caption>Steps asked for</caption>\n<thead><tr><th scope=\"col\">Step</th><th scope=\"col\" "
+        "class=\"number\">When</th><th scope=\"col\">Result</th></tr></thead>\n<tbody>\n");
     html.add(asked).raw("</tbody>\n</table>\n");
   }
   if (!not_asked.empty())
-    html.raw("<details><summary>Steps that were not asked for</summary>\n<dl class=\"definitions\">\n")
+    html.raw("<details><summary>Steps not asked for</summary>\n<dl class=\"definitions\">\n")
         .add(not_asked)
         .raw("</dl>\n</details>\n");
   return html.raw("</section>\n");

@@ -69,7 +69,7 @@ std::vector<Other> stated_experience(const std::map<std::string, casedb::Backgro
   for (const casedb::FactInfo& fact : casedb::fact_infos()) {
     if (fact.is_choice()) continue;
     Other one{
-        std::string(fact.words), "as stated at the enrolment", stated_of(fact, people), {{}, "it was stated once"}};
+        std::string(fact.words), "as stated at enrolment", stated_of(fact, people), {{}, "it was stated once"}};
     if (!one.value.empty()) all.push_back(std::move(one));
   }
   return all;

@@ -63,7 +63,7 @@ TEST(AnswerJson, WhatIsNotThereIsNull) {
       Json::parse(json_of_answer(assessment::statistics::not_estimable("auc", "one_group", 3, {{"a", 3}})));
   EXPECT_EQ(json.at("status"), "not_estimable");
   EXPECT_EQ(json.at("reason"), "one_group");
-  EXPECT_EQ(json.at("reason_words"), "there is one group only");
+  EXPECT_EQ(json.at("reason_words"), "there is only one group");
   for (const char* key : {"method", "statistic", "df", "p_value", "estimate", "estimate_name", "ci95"})
     EXPECT_EQ(json.at(key), nullptr) << key;
   for (const char* key : {"notes", "rows"}) EXPECT_EQ(json.at(key), Json::array()) << key;
@@ -93,7 +93,7 @@ TEST(AnswerText, TellsWhyThereIsNone) {
   EXPECT_EQ(text_of_answer(assessment::statistics::not_estimable("auc", "one_group", 3, {{"a", 3}})),
             "auc\n"
             "  n           3 (a 3)\n"
-            "  no estimate there is one group only (one_group)\n");
+            "  no estimate there is only one group (one_group)\n");
   Answer tiny = an_answer();
   tiny.p_value = 1e-9;
   EXPECT_NE(text_of_answer(tiny).find("p < 0.0001\n"), std::string::npos);

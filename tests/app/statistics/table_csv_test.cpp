@@ -101,7 +101,7 @@ TEST(TableCsv, NumbersOfEverySizeKeepTheirBits) {
 }
 
 TEST(TableCsv, TellsEveryFault) {
-  EXPECT_EQ(faults_in("score,group,score\n1,2,3\n"), Lines{"column \"score\" stands twice"});
+  EXPECT_EQ(faults_in("score,group,score\n1,2,3\n"), Lines{"column \"score\" occurs twice"});
   EXPECT_EQ(faults_in("a,b\n1,2\n"), (Lines{"there is no column \"score\" among the 2 of the header",
                                             "there is no column \"group\" among the 2 of the header"}));
   EXPECT_EQ(

@@ -32,7 +32,7 @@ TEST(ContradictionsTest, ALimitThatTheMetricNeverReaches) {
     EXPECT_EQ(code_of({text}), "") << text;
   EXPECT_EQ(
       found_in({"vis_joint >= 80"})[0].text,
-      "“Needle and target visible: at least 8000 %” (vis_joint >= 80) is met by nobody: a share lies between 0 "
+      "“Needle and target visible: at least 8000 %” (vis_joint >= 80) can never be met: a share lies between 0 "
       "and 1: 80 % is 0.8");
 }
 

@@ -75,7 +75,7 @@ TEST(DebriefTest, SaysThatVersionsAreNotComparable) {
   EXPECT_EQ(texts(attempt.debriefed(rule_of({"hit >= 1", "blind_advance <= 5"}, {}))),
             (std::vector<std::string>{
                 "Missed the target.",
-                "“Blind advance” was measured by another version than the rule's: not comparable."}));
+                "“Blind advance” was measured by a version other than the rule's: not comparable."}));
 }
 
 TEST(DebriefTest, CriticalErrorsThenMissedCriteriaThenShortfallsThenWhatWentWell) {
@@ -257,7 +257,7 @@ TEST(DebriefTest, OfWhatIsNotGradableOnlySaysWhy) {
     EXPECT_EQ(said[0].text, "This attempt is not graded: tracking was lost for more than 5 % of the time.");
   }
   EXPECT_EQ(not_gradable_text("interrupted"),
-            "This attempt is not graded: the program was gone before the attempt had ended.");
+            "This attempt is not graded: the program ended before the attempt did.");
 }
 
 TEST(DebriefTest, NumbersThatDifferReadDifferently) {

@@ -198,7 +198,7 @@ TEST_F(TrainTest, WhatWentWrongSaysWhenAndPlaysIt) {
   look();
   trainee_->press("Escape");
   ASSERT_TRUE(trainee_->reaches("debrief"));
-  trainee_->click("Play Insert the needle; the skin of a patient must be numb");
+  trainee_->click("Play Insert the needle; a patient's skin must be numb");
   ASSERT_TRUE(trainee_->reaches("watch"));
   ASSERT_TRUE(fixtures::until([&] { return now().value("watched_s", 0.0) > 0.0; })) << now();
   trainee_->press("Escape");

@@ -76,7 +76,7 @@ TEST(CaseReport, SaysWhatToChange) {
   using assessment::statistics::Interval;
   EXPECT_THAT(advice(40, 40, 40, Interval{0.1, 0.5}), HasSubstr("nearly everybody"));
   EXPECT_THAT(advice(0, 0, 40, Interval{0.1, 0.5}), HasSubstr("hardly anybody"));
-  EXPECT_THAT(advice(10, 20, 40, Interval{-0.3, 0.1}), HasSubstr("does not tell persons apart"));
+  EXPECT_THAT(advice(10, 20, 40, Interval{-0.3, 0.1}), HasSubstr("does not separate persons"));
   EXPECT_EQ(advice(10, 20, 40, Interval{0.1, 0.5}), "Keep");
   EXPECT_THAT(advice(10, 20, 40, Interval{-0.1, 0.5}), HasSubstr("open"));
   EXPECT_THAT(advice(1, 2, 4, Interval{0.1, 0.5}), HasSubstr("Too few"));
@@ -86,7 +86,7 @@ TEST(CaseReport, TellsNothingOfFourPeopleButAllOfFourSimulatedOnes) {
   const auto attempts = fixtures::planted_attempts(kCases, 4, 3, 1.5, 1);
   const std::string people = case_report_page(report_of(attempts));
   EXPECT_THAT(people, Not(HasSubstr(" of 4<")));
-  EXPECT_THAT(people, HasSubstr("fewer than five people made it up"));
+  EXPECT_THAT(people, HasSubstr("it comes from fewer than five people"));
   EXPECT_THAT(people, Not(HasSubstr("SIMULATED")));
   const std::string simulated = case_report_page(report_of(attempts, casedb::Learners::simulated));
   EXPECT_THAT(simulated, HasSubstr(" of 4<"));

@@ -54,7 +54,7 @@ TEST(RelationsPanel, WhatIsTooFewOrOfAnotherCaseIsNoNumber) {
               HasSubstr("not estimated: too few, or all alike"));
   EXPECT_THAT(sources_section(rated_report({{"P-1", 4.0}, {"P-2", 2.0}, {"P-3", 3.0}}, "another")).str(),
               AllOf(Not(HasSubstr("Global")),
-                    HasSubstr("No rated replay is of a primary outcome’s case, and nobody stated")));
+                    HasSubstr("No rated replay shows a primary outcome’s case, and nobody stated")));
   EXPECT_THAT(sources_section(rated_report({})).str(),
               HasSubstr("What raters saw, and what experience people stated</h3>\n<p><strong>None yet"));
 }

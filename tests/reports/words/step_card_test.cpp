@@ -38,13 +38,14 @@ TEST(StepCardTest, EveryStepTellsAllThereIsToAskInWords) {
     EXPECT_EQ(line_of(card, "Source"), info.source);
     EXPECT_EQ(line_of(card, "Version").find("this result"), std::string::npos);
   }
-  EXPECT_NE(line_of(step_card("nick", 2), "Version").find("this result was told by version 2"), std::string::npos);
+  EXPECT_NE(line_of(step_card("nick", 2), "Version").find("this result was judged by version 2"),
+            std::string::npos);
 }
 
 TEST(StepCardTest, WhatIsSaidOfADeedIsToldAsNotCounting) {
   EXPECT_NE(step_card("check_probe").definition.find("does not count"), std::string::npos);
   EXPECT_EQ(step_card("place_probe").definition.find("does not count"), std::string::npos);
-  EXPECT_EQ(line_of(step_card("jiggle"), "Counts"), "only with tissue that yields; elsewhere it is told");
+  EXPECT_EQ(line_of(step_card("jiggle"), "Counts"), "only with tissue that yields; elsewhere it is only listed");
 }
 
 TEST(StepCardTest, OfAnUnknownStepSaysThatItIsUnknown) {

@@ -57,7 +57,7 @@ std::vector<Scored> all_scored(const DataTable& table, Facets& facets) {
       }
       if (!is_score(value)) {
         facets.reason = "bad_value";
-        facets.why = "A score is no whole number from 0 to 9.";
+        facets.why = "A score is not a whole number from 0 to 9.";
         return {};
       }
       scored.push_back({person, items_in_rows ? items.of(table.group[i]) : c, rater, static_cast<int>(value)});

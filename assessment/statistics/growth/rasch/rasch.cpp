@@ -154,14 +154,14 @@ void add_rows(Answer& answer, const Facets& facets, const Places& places, const 
 
 void note_left_out(Answer& answer, const Extremes& extremes) {
   for (const std::string& item : extremes.items)
-    answer.notes.push_back("Item " + item + " is left out: it was always scored alike, at one end.");
+    answer.notes.push_back("Item " + item + " is left out: it was always scored the same, at one end.");
   for (const std::string& rater : extremes.raters)
     answer.notes.push_back("Rater " + rater + " is left out: always the same score, at one end.");
   const auto ends = std::count(extremes.person.begin(), extremes.person.end(), true);
   if (ends > 0)
     answer.notes.push_back(std::to_string(ends) +
                            " persons have the least or the greatest score there is: their ability is by Warm's "
-                           "weighted likelihood, and they tell nothing about items.");
+                           "weighted likelihood, and they say nothing about items.");
 }
 
 Answer refused(const Facets& facets, const char* reason, const char* why) {
@@ -184,7 +184,7 @@ Answer rasch(const DataTable& table) {
   if (all.reason != nullptr) return refused(all, all.reason, all.why);
   if (all.persons.empty()) return refused(all, "no_data", "There is no score.");
   if (all.persons.size() < kLeastPersonsOfRasch)
-    return refused(all, "too_few", "Fewer than 30 persons do not place items.");
+    return refused(all, "too_few", "Fewer than 30 persons are too few to place items.");
   if (all.cells() > kMostCells) return refused(all, "too_many", "There may be 200 items, or items by raters.");
   if (all.most == 0) return refused(all, "no_variation", "All scores are 0.");
   Facets used = all;

@@ -19,7 +19,7 @@ inline bool warns_of(const Answer& answer, const std::string& words) {
   return std::any_of(answer.notes.begin(), answer.notes.end(),
                      [&](const std::string& note) { return note.find(words) != std::string::npos; });
 }
-inline constexpr const char* kCoversTooLittle = "less than 93 of 100";
+inline constexpr const char* kCoversTooLittle = "fewer than 93 of 100";
 inline constexpr const char* kRejectsTooMuch = "more than 6 of 100";
 
 // An interval, open where there is no bound; nothing: the answer has none.
