@@ -17,15 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kRoot = seldinger::fixtures::source_dir();
 
-// Names of documents, with or without folders, and decisions by their number. An expression is slow: it looks at lines
-// that may hold one.
+// Names of documents, with or without folders, and decisions by their number. An expression is slow: it looks at
+// lines that may hold one.
 std::vector<std::string> citations(const std::string& text) {
   static const std::regex kCited(R"([A-Za-z0-9_./-]*[A-Za-z0-9_]\.md\b|\bdocs/decisions/[0-9]{4}\b)");
   std::vector<std::string> out;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     if (line.find(".md") != line.npos || line.find("docs/decisions/") != line.npos)
-      for (std::sregex_iterator it(line.begin(), line.end(), kCited), end; it != end; ++it) out.push_back(it->str());
+      for (std::sregex_iterator it(line.begin(), line.end(), kCited), end; it != end; ++it)
+        out.push_back(it->str());
   return out;
 }
 

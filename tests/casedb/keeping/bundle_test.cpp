@@ -310,7 +310,8 @@ TEST_F(BundleTest, RowsOfOlderSchemasAreTaken) {
   home_.database().run("DROP TRIGGER training_case_keeps_its_sight_law");
   home_.database().run("DROP TRIGGER training_case_keeps_its_touch");
   home_.database().run("DROP TRIGGER training_case_keeps_its_motion");
-  home_.database().run("UPDATE training_case SET sight_law = 'echo', touch_law = 'steady', breath_law = 'equal_holds'");
+  home_.database().run(
+      "UPDATE training_case SET sight_law = 'echo', touch_law = 'steady', breath_law = 'equal_holds'");
   const Parts good = parts_of(file_);
   const Schema newest = library_schema();
   for (int version = 1; version <= newest_version(newest); ++version) {
