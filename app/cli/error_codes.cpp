@@ -18,8 +18,7 @@ constexpr ErrorCode kFilesCodes[] = {
      "Correct the rows named in the message."},
     {"truncated", kRefuses, "A file, or its pixels, end too early.", "Copy or export it again."},
     {"reader_died", kRefuses,
-     "A file from outside crashed the process that read it, or took more memory or time than such a file should; "
-     "none of it was kept.",
+     "A file from outside crashed the process that read it, or took too much memory or time; nothing was kept.",
      "Ask where the file came from; export it again."},
     {"damaged", kRefuses, "Stored or copied bytes are not what they should be.",
      "Restore a backup, or copy the file again."}};

@@ -1,9 +1,8 @@
 // bench --stage ultrasound: what a picture costs with artefacts, clutter, compounding and colour beside one without
 // any of it, by turns, one thread, by processor time.
-#include <time.h>
-
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>

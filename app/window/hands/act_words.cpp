@@ -95,7 +95,7 @@ std::string phantom_words(cases::EventKind kind) {
   using cases::EventKind;
   if (kind == EventKind::probe_checked || kind == EventKind::note_plan) return {};
   return kind == EventKind::nick ? "A phantom has no skin to nick: the needle goes in as it is."
-                                 : "That is for a patient; a phantom is nobody.";
+                                 : "That is for a patient; a phantom needs none of it.";
 }
 
 bool depth_is_missing(cases::EventKind kind, double planned_mm, cases::Modality modality) {

@@ -249,7 +249,7 @@ TEST_F(TrainKeysTest, AMentorImportsACtWithoutAMouse) {
   EXPECT_EQ(cases(), before + 2);
   person_->keep_picture();
   ASSERT_NO_FATAL_FAILURE(press_at("Duplicate: Torso of my own"));
-  EXPECT_TRUE(says("“Torso of my own” has a duplicate")) << words();
+  EXPECT_TRUE(says("“Torso of my own” now has a duplicate")) << words();
   EXPECT_TRUE(says("| Copy of Torso of my own |"));
   EXPECT_EQ(cases(), before + 3);
   EXPECT_TRUE(fixtures::until([&] { return person_->shows("thumbnail#3"); })) << "each with its picture";

@@ -57,7 +57,7 @@ TEST_F(TrainerListTest, ADuplicateIsADraftOfItsOwn) {
   ASSERT_EQ(trainer.drafts().size(), 1U) << "a trainee duplicates nothing";
   trainer.duplicate_draft(case_id_);
   EXPECT_EQ(trainer.refusal(), "");
-  EXPECT_NE(trainer.imported().find("“Ball” has a duplicate"), std::string::npos) << trainer.imported();
+  EXPECT_NE(trainer.imported().find("“Ball” now has a duplicate"), std::string::npos) << trainer.imported();
   ASSERT_EQ(trainer.drafts().size(), 2U);
   const auto copy =
       std::ranges::find_if(trainer.drafts(), [&](const CaseDraft& one) { return one.case_id != case_id_; });
