@@ -1,25 +1,23 @@
-#!/bin/sh
-# How many simulated people pass each drill and graded case at their first attempt, as a table, from nothing but the
-# program (docs/simulated-people.md):
-#
-#   docs/pass-rates.sh FOLDER
-#
-# FOLDER is made a library of the drills and the graded cases (`seldinger demo --cases`), if it is none yet. What is
-# stored in it already is not simulated again, so a run that was cut off is begun again with the same words.
-#
-# SELDINGER names the program where it is not on the PATH; PEOPLE (12) how many of each group, SEED (3) which.
 set -eu
 library=$1
 program=${SELDINGER:-seldinger} people=${PEOPLE:-12} seed=${SEED:-3}
-[ -e "$library" ] || "$program" demo --cases --no-serve --library "$library" >&2
+if [ ! -e "$library" ]; then  # under its name once it is whole
+  rm -rf "$library.part"
+  "$program" demo --cases --no-serve --library "$library.part" >&2
+  mv "$library.part" "$library"
+fi
 # Who gave up or lost the device did not pass; a case without a rule has no verdicts.
 passed_of() {
-  "$program" simulate --case "$1" --operator "$2" --people "$people" --seed "$seed" --no-pictures --json \
-    --library "$library" | grep -o '"verdict": *"[a-z_]*"' |
+  answer=$("$program" simulate --case "$1" --operator "$2" --people "$people" --seed "$seed" --no-pictures --json \
+    --library "$library") || exit
+  printf %s "$answer" | grep -o '"verdict": *"[a-z_]*"' |
     awk '/"passed"/ { passed++ } !/no_rule/ { made++ } END { if (made) print passed + 0 " of " made; else print "no rule" }'
 }
+cases=$("$program" case list --library "$library")
 printf '| | simulated novices | simulated experts |\n|---|---|---|\n'
-"$program" case list --library "$library" | sed -n 's/^\([0-9a-f-]\{36\}\) .*/\1/p' | while read -r id; do
+for id in $(printf '%s\n' "$cases" | sed -n 's/^\([0-9a-f-]\{36\}\) .*/\1/p'); do
   title=$("$program" case show "$id" --json --library "$library" | sed -n 's/^ *"title": "\(.*\)",$/\1/p' | head -n 1)
-  printf '| %s | %s | %s |\n' "$title" "$(passed_of "$id" novice)" "$(passed_of "$id" expert)"
+  novices=$(passed_of "$id" novice)
+  experts=$(passed_of "$id" expert)
+  printf '| %s | %s | %s |\n' "$title" "$novices" "$experts"
 done

@@ -18,7 +18,7 @@ namespace seldinger::casedb {
 struct Study {
   std::string study_id, title;
   int consenting = 0;  // how many people
-  int simulated = 0;   // of whom its plan is; nobody asks them
+  int simulated = 0;   // whom its plan is of; nobody asks them
 };
 
 // A text as one person meets it.

@@ -80,6 +80,11 @@ std::set<std::string> people_asked(Library& library, const StoredPlan& stored) {
   return people;
 }
 
+bool is_of_simulated_people(Library& library, const std::string& study_id) {
+  const auto plan = find_plan(library, study_id);
+  return plan && plan->plan.people == assessment::study::People::simulated;
+}
+
 std::set<std::string> people_asked(Library& library, const std::string& study_id) {
   const auto plan = find_plan(library, study_id);
   return plan ? people_asked(library, *plan) : consenting_people(library, study_id);

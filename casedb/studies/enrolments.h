@@ -23,6 +23,7 @@ struct StudyEnrolment {
 
 // Who may be enrolled, or is: people whose consent stands, of the kind that the plan is of.
 std::set<std::string> people_asked(Library& library, const StoredPlan& stored);
+bool is_of_simulated_people(Library& library, const std::string& study_id);  // by its plan, if it has one
 // By the study's plan; where there is none yet, all whose consent stands.
 std::set<std::string> people_asked(Library& library, const std::string& study_id);
 // By the facts that hold now. `no_plan`, `plan_not_frozen`, `data_locked`, `no_person`, `real_person` (the study is

@@ -72,6 +72,8 @@ base::Result<Workshop> open_workshop(Library& library, const NewWorkshop& made) 
   Transaction transaction(library.database());
   if (const auto fit = check_stations(library, made.stations); !fit) return fit.error();
   if (const auto study = find_study(library, made.study_id); !study) return study.error();
+  if (is_of_simulated_people(library, made.study_id))
+    return base::Error{"real_person", "the study is of simulated people, who come to no workshop"};
   const std::string workshop_id = new_uuid();
   std::string code = drawn_code();
   while (find_workshop(library, code)) code = drawn_code();
@@ -168,7 +170,7 @@ base::Result<Participant> admit_to_workshop(Library& library, const Workshop& wo
   }
   if (!consenting_people(library, now->study_id).contains(person_id))
     return base::Error{"no_consent", "nobody takes part whose consent to the study does not stand"};
-  if (!people_asked(library, now->study_id).contains(person_id))
+  if (is_of_simulated_people(library, now->study_id))  // planned since it was opened
     return base::Error{"real_person", "the study is of simulated people, and this person is a real one"};
   const auto came = [&]() -> std::optional<Participant> {
     for (Participant& one : list_participants(library, *now))

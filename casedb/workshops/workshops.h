@@ -35,7 +35,8 @@ struct Workshop : NewWorkshop {
 
 inline constexpr std::size_t kLeastStations = 2, kMostStations = 12;
 
-// `bad_title`, `bad_stations` (not two to twelve of different titles), `bad_group`, `no_study`, `no_case`.
+// `bad_title`, `bad_stations` (not two to twelve of different titles), `bad_group`, `no_study`, `no_case`,
+// `real_person` (the study's plan is of simulated people).
 base::Result<Workshop> open_workshop(Library& library, const NewWorkshop& made);
 // By its code, however typed: `no_workshop`.
 base::Result<Workshop> find_workshop(Library& library, std::string_view code);

@@ -29,7 +29,7 @@ template <typename Form>
 
 // As shaders::displacement_at adds them up.
 SELDINGER_FOR_AVX2_TOO
-void displacement_of(const Displacement& displacement, const Places& rest_mm, Places& moved_mm) {
+void displacement_at(const Displacement& displacement, const Places& rest_mm, Places& moved_mm) {
   using glm::dvec3;
   const auto& source = displacement.source;
   moved_mm = {};
@@ -74,7 +74,7 @@ void rest_of(const Displacement& displacement, std::span<const glm::dvec3> at_lp
     }
     Places rest = at;
     for (int step = 0; step < fixed_point_steps; ++step) {
-      displacement_of(displacement, rest, moved);
+      displacement_at(displacement, rest, moved);
       for (std::size_t i = 0; i < kSideBySide; ++i) {
         rest.x[i] = at.x[i] - moved.x[i];
         rest.y[i] = at.y[i] - moved.y[i];

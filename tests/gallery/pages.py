@@ -25,6 +25,7 @@ import urllib.request
 WIDE, NARROW = (1280, 1100), (390, 1500)
 BOTH = (WIDE, NARROW)
 STUDY = "Needles"
+WORKSHOP_STUDY = "Needles, people"
 
 
 def opened(base, name, password):
@@ -114,7 +115,9 @@ def add_day(commands, scratch, attempt):
             commands.done("questionnaire", "add", forms[form])
     asked = commands.ask("questionnaire", "open", "workshop-2007", "--title", "Study day", "--group", "trainee",
                          "--group", "expert")["code"]
-    board = commands.ask("workshop", "open", STUDY, "--title", "Autumn workshop", "--case", "Drill 1", "--case",
+    commands.done("study", "new", WORKSHOP_STUDY)  # real people come to a workshop
+    commands.done("consent", "text", scratch + "/consent.txt", "--study", WORKSHOP_STUDY)
+    board = commands.ask("workshop", "open", WORKSHOP_STUDY, "--title", "Autumn workshop", "--case", "Drill 1", "--case",
                          "Drill 2", "--station", "Talk")["code"]
     commands.done("workshop", "admit", board, "--user", "trainee", "--consent")
     rated = commands.ask("rating", "open", "osats-grs", "--title", "Spring replays", "--attempt", attempt)

@@ -2,9 +2,10 @@
 // any of it, by turns, one thread, by processor time.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <ctime>
-#include <functional>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string>
 #include <vector>
 

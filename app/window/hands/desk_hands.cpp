@@ -152,7 +152,9 @@ void DeskHands::read_arms(const cases::State& state, const devices::AxialForces&
                           cases::Inputs& inputs) noexcept {
   cases::Inputs arms;
   desk_->read(state.needle.inserted_mm <= 0.0, forces.probe_n <= 0.0, elapsed_s, arms, held_);
-  inputs.fire = inputs.fire || (arms.fire && !away_);
+  // A trigger that was pulled while the hand was away fires nothing, also not on the hand's return.
+  pulled_away_ = arms.fire && (away_ || pulled_away_);
+  inputs.fire = inputs.fire || (arms.fire && !pulled_away_);
   inputs.freeze = inputs.freeze != arms.freeze;  // either lets go what the other froze
   for (std::size_t side = 0; side < 2; ++side) {
     const bool heard = desk_->healthy(static_cast<Side>(side));

@@ -86,6 +86,7 @@ class DeskHands {
   ArmsHeld arms_;
   std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS}, late_s_{}, limit_s_{};
   bool away_ = false;              // the hand was, in the last tick
+  bool pulled_away_ = false;       // and its arm's trigger was pulled meanwhile, and is still
   std::array<bool, 2> arm_led_{};  // last, and so the mouse's own pose of it is old
   haptics::HandInputs held_;
   haptics::HandStates felt_;

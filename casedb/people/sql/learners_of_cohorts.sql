@@ -1,5 +1,5 @@
--- Everybody who is or was a learner in a cohort, whether still, whether simulated, and what they did while they were: attempts that
--- they made themselves, of those how many have a known newest value of hit, and how many hit.
+-- Everybody who is or was a learner in a cohort, whether still, whether simulated, and what they did while they were:
+-- attempts that they made themselves, of those how many have a known newest value of hit, and how many hit.
 WITH done AS (
   SELECT person_id, attempt_id, started_us, (
     SELECT value FROM metric_value INDEXED BY metric_value_hit

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "shaders/shared/ultrasound_passes.glsl.h"
-#include "sim/imaging/noise.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/speckle/lattice.h"
 #include "sim/imaging/ultrasound/speckle/scatterers.h"

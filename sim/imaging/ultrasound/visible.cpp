@@ -284,7 +284,8 @@ class Looks {
   Looks& operator=(const Looks&) = delete;
   const Sight& middle() const { return looks_.front(); }
 
-  // At a place in the field of the middle one. Beams are walked down only as far as the answer hangs on them.
+  // At a place in the field of the middle one. Beams are walked down only as far as the answer
+  // hangs on them; where a few do not settle it, all are.
   bool needle_stands_out(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
     const Glances glances = look_at(needle, p_lps_mm, tip);
     const auto hides = [](const Glances::value_type& one) { return !one || one->is_in_speckle(); };

@@ -91,10 +91,11 @@ TEST_F(WorkshopsTest, NobodyRealComesToAStudyOfSimulatedPeople) {
   std::string plan = assessment::study::sample_plan_json(R"(, "people": "simulated")");
   for (std::size_t at = plan.find("case-1"); at != plan.npos; at = plan.find("case-1"))
     plan.replace(at, 6, case_id_);
+  const Workshop day = open();  // before it is planned
   ASSERT_TRUE(store_plan(library_, study_, plan));
-  const Workshop day = open();
   EXPECT_EQ(code_of(admit_to_workshop(library_, day, person("Zoe"), "new", true)), "real_person");
   EXPECT_TRUE(consenting_people(library_, study_).empty()) << "of whom is refused nothing is kept";
+  EXPECT_EQ(code_of(open_workshop(library_, {study_, "Winter", {{"Talk"}, {"Film"}}})), "real_person");
 }
 
 TEST_F(WorkshopsTest, WhatIsDoneIsToldFromWhenSomebodyCame) {

@@ -116,6 +116,7 @@ TEST(Regions, AllEightAreReachedPastSomethingThatMustBeAvoided) {
     ASSERT_TRUE(casedb::add_lesion(*library, case_id, sphere_form(target.at_lps_mm, target.radius_mm, 40.0)));
     const auto checked = session::check_case(*library, case_id);
     ASSERT_TRUE(checked);
+    int reached = 0;
     for (const session::Check& one : checked->checks) {
       EXPECT_TRUE(one.holds) << one.name << ": " << one.text;
       if (one.name != "lesion_reachable" || !one.holds) continue;
@@ -123,7 +124,9 @@ TEST(Regions, AllEightAreReachedPastSomethingThatMustBeAvoided) {
       RecordProperty(target.region, std::to_string(past_mm));
       EXPECT_GT(past_mm, 1.0);
       EXPECT_LT(past_mm, 25.0) << "nothing near the way makes it a case";
+      ++reached;
     }
+    EXPECT_EQ(reached, 1);
   }
 }
 

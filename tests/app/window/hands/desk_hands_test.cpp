@@ -187,14 +187,17 @@ TEST(DeskHands, AnArmThatWasAwayTakesTheNeedleUpWhereItIs) {
   }
   ASSERT_TRUE(until(true, [&] { return (*service)->arm(1).at_mm.y > devices::kEntryAboveMm + 35.0; }));
   EXPECT_LT(glm::length((*service)->arm(1).asked_n), 0.05) << "what stands in the patient holds nobody's hand";
-  fires = false;
-  for (int i = 0; i < 50; ++i) tick(true);
   ASSERT_FALSE(hands.arms().lost[1]);
-  // Back from 60 mm away.
+  // Back from 60 mm away, the trigger still pulled.
   for (int i = 0; i < 20; ++i) {
     tick(false);
     ASSERT_LT(glm::distance(tip(), left), 3.0) << "no leap, tick " << i;
+    ASSERT_FALSE(inputs.fire) << "pulled while away, tick " << i;
   }
+  fires = false;
+  for (int i = 0; i < 50; ++i) tick(false);
+  fires = true;
+  EXPECT_TRUE(until(false, [&] { return inputs.fire; })) << "pulled anew it fires";
   // And led again, from here.
   const glm::dvec3 back = tip();
   above_mm = 55.0;

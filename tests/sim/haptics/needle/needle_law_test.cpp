@@ -272,7 +272,7 @@ TEST(NeedleLaw, ACapsuleOpensAtLessTheFasterItIsPushed) {
 }
 
 // Of skin at 1, 5 and 10 mm/s no difference was found (Frick et al., J Biomech 34 (2001) 1335, n = 5); by this law
-// it is no more than five needles scatter.
+// there is a small one (docs/touch.md).
 TEST(NeedleLaw, SkinOpensAtNearlyTheSameForceAtTheSpeedsThatWereTried) {
   const NeedleSettings settings = of_law({}, cases::kNewestTouchLaw);
   double least_n = std::numeric_limits<double>::infinity(), most_n = 0.0;
@@ -286,7 +286,7 @@ TEST(NeedleLaw, SkinOpensAtNearlyTheSameForceAtTheSpeedsThatWereTried) {
     least_n = std::min(least_n, peak_n);
     most_n = std::max(most_n, peak_n);
   }
-  EXPECT_LE(most_n - least_n, 0.16 * most_n);
+  EXPECT_LE(most_n - least_n, 0.15 * most_n);
 }
 
 // No more is given back than was put in, at any speed and over any rest: pressed in, held, drawn out.
