@@ -331,7 +331,7 @@ constexpr ErrorCode kQuestionnaireCodes[] = {
      "`seldinger workshop show CODE` shows it."},
     {"no_participant", kRefuses, "Nobody in the workshop has that number.", "`seldinger workshop show CODE`."},
     {"no_station", kRefuses,
-     "The workshop has no station without a case of that name; a station with a case is done by an attempt.", ""},
+     "The workshop has no station of that name that is ticked by hand; one with a case is done by an attempt.", ""},
     {"round_full", kRefuses, "2,000 people have begun to answer in this round, the most that it takes.",
      "`seldinger questionnaire open` opens another."},
     {"bad_group", kRefuses, "The groups of a round are not two to six names, or a respondent's is none of them.",

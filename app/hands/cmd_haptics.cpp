@@ -198,7 +198,8 @@ constexpr Option kInsertOptions[] = {
     {"--touch", base::kAlternatives<cases::kTouchLawNames>,
      "the law of touch; default steady, the same at any speed. by_speed: the faster the needle, the less force "
      "opens a capsule, and held tissue relaxes. organs_move: as by_speed; the movement is seen, not felt"},
-    {"--tip", base::kAlternatives<cases::kNeedleTipNames>, "its shape, which matters with by_speed; default bevel"},
+    {"--tip", base::kAlternatives<cases::kNeedleTipNames>,
+     "its shape, which matters with every law but steady; default bevel"},
     {"--introducer-mm", "D", "it goes through an introducer that ends at this depth; default none"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
 

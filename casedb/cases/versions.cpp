@@ -101,7 +101,7 @@ bool made_or_submitted(const Wish& wish) {
 // A case that comes from a patient is published only when a person has looked for burned-in text.
 base::Result<void> check_burned_in(const CaseRow& row) {
   if (row.origin != "import" || row.burned_in_checked) return {};
-  return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
+  return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures have no burned-in text"};
 }
 
 // A quiet breath is 12 mm downwards; what cases of before call one is 16.

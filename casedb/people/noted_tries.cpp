@@ -38,7 +38,7 @@ base::Result<Account> log_in_by_command(Library& library, const std::string& nam
     if (const std::int64_t wait = wait_s(library, person_id, now_us()); wait > 0)
       return base::Error{"too_many_tries", "too many tries: again in " + std::to_string(wait) + " s"};
   auto account = log_in(library, name, password);
-  if (!account) return base::Error{"bad_log_in", "name or password is not right"};
+  if (!account) return base::Error{"bad_log_in", "the name or password is wrong"};
   return std::move(*account);
 }
 

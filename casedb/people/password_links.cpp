@@ -15,7 +15,7 @@
 namespace seldinger::casedb {
 namespace {
 
-const base::Error kNoLink{"no_link", "this link does not hold any more; ask for another"};
+const base::Error kNoLink{"no_link", "this link is no longer valid; ask for another"};
 
 std::string hash_of_link(const std::string& secret) {
   return sha256_hex(std::as_bytes(std::span(secret)));

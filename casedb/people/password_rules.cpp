@@ -147,7 +147,7 @@ base::Result<void> check_password(std::string_view password, std::string_view lo
     return base::Error{
         "weak_password",
         "a password of common words, the user's name, rows of keys and a few digits is guessed first: "
-        "choose another, such as four words that have nothing to do with each other"};
+        "choose another, such as four unrelated words"};
   return {};
 }
 

@@ -136,7 +136,7 @@ base::Result<Workshop> find_workshop(Library& library, std::string_view code) {
   const std::string capitals = code_from(code);
   for (Workshop& one : list_workshops(library))
     if (one.code == capitals) return std::move(one);
-  return base::Error{"no_workshop", "there is no workshop of that code"};
+  return base::Error{"no_workshop", "there is no workshop with that code"};
 }
 
 base::Result<void> close_workshop(Library& library, const Workshop& workshop) {

@@ -87,7 +87,7 @@ Html answer_item(const questionnaire::Form& form, const Item& item, const std::s
   } else {
     html.raw("<textarea id=\"").text(field_of(item)).raw("\" name=\"").text(field_of(item));
     html.raw("\" rows=\"4\" maxlength=\"").text(std::to_string(questionnaire::kMostCommentBytes / 4)).raw("\">\n");
-    html.text(typed).raw("</textarea>\n<p class=\"why\">Please name no patient and no colleague.</p>\n");
+    html.text(typed).raw("</textarea>\n<p class=\"why\">Please do not name patients or colleagues.</p>\n");
   }
   return html.raw("</div>\n");
 }

@@ -99,7 +99,7 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   // Until a director sets one it is nobody's standard (casedb/grading/standards.h).
   add_fact(html, "Standing",
            row.rule.criteria.empty() ? ""
-           : parts.provisional       ? "provisional: no standard of consultants has been set"
+           : parts.provisional       ? "provisional: no consultant standard has been set"
                                      : "consultants have set the standard");
   if (parts.dependability)
     add_fact(html, "What it tells", dependability_text(*parts.dependability, casedb::Learners::people));

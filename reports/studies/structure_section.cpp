@@ -33,7 +33,7 @@ Html forms_panel(const ValidityReport& report) {
               std::to_string(one.high));
     html.raw("</td><td>").text(std::to_string(one.alpha.n));
     if (one.alpha.missing > 0)
-      html.text("; " + std::to_string(one.alpha.missing) + " left out who did not answer every item");
+      html.text("; " + std::to_string(one.alpha.missing) + " left out because they did not answer every item");
     html.raw("</td>");
     add_estimate(html, one.alpha);
     add_estimate(html, one.omega);

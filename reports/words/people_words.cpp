@@ -7,7 +7,9 @@ std::string and_simulated_text(int simulated) {
 }
 
 std::string consent_text(const casedb::Study& study) {
-  return std::to_string(study.consenting) + " consent" + and_simulated_text(study.simulated);
+  return std::to_string(study.consenting) +
+         (study.consenting == 1 && study.simulated == 0 ? " consents" : " consent") +
+         and_simulated_text(study.simulated);
 }
 
 std::string with_outcome_text(int people, bool simulated_study) {

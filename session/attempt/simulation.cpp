@@ -57,7 +57,7 @@ base::Result<SimulatedAttempt> Simulation::resume(InterruptedAttempt interrupted
   const std::uint64_t seed = interrupted.attempt().seed;
   CHECK(interrupted.attempt().synthetic());
   if (!was_made_at(interrupted.attempt(), task_))
-    return base::Error{"other_case", "the attempt was made at another task than this"};
+    return base::Error{"other_case", "the attempt was made on a different task"};
   assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
   std::uint32_t happened = 0;
   auto frame = interrupted.recording().frames.begin();

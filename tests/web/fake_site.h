@@ -82,7 +82,7 @@ class FakeQuestions final : public Questions {
   }
   std::optional<casedb::Account> account_of_password_link(const std::string&) override { return std::nullopt; }
   base::Result<void> set_password_by_link(const std::string&, const std::string&, const std::string&) override {
-    return base::Error{"no_link", "this link does not hold any more; ask for another"};
+    return base::Error{"no_link", "this link is no longer valid; ask for another"};
   }
   std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) override {
     std::unordered_map<std::string, casedb::Relation> all;
@@ -168,7 +168,7 @@ class FakeQuestions final : public Questions {
     return base::Error{"no_draft", "there are no answers that were begun here"};
   }
   base::Result<Board> find_board(const std::string&) override {
-    return base::Error{"no_workshop", "there is no workshop of that code"};
+    return base::Error{"no_workshop", "there is no workshop with that code"};
   }
   base::Result<void> keep_answers(const std::string&, const std::map<std::string, std::string>&, bool) override {
     return base::Error{"no_draft", "there are no answers that were begun here"};

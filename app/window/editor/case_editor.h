@@ -101,7 +101,7 @@ class CaseEditor {
   std::string undo_words() const { return changes_.empty() ? "" : changes_.back().words; }
   void undo();
 
-  // "Can it be met?": of what is stored now, in the background. Changing goes on meanwhile.
+  // "Can it be passed?": of what is stored now, in the background. Changing goes on meanwhile.
   void rehearse() { rehearsal_.emplace(library_.folder(), case_id_); }
   DraftRehearsal* rehearsal() noexcept { return rehearsal_ ? &*rehearsal_ : nullptr; }  // null: nobody asked
   // Whether what a rehearsal found is of the case as it is; false until its checks are through.

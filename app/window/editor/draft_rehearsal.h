@@ -1,4 +1,4 @@
-// "Can it be met?": a stored case rehearsed by simulated operators on a thread of its own, while the case editor
+// "Can it be passed?": a stored case rehearsed by simulated operators on a thread of its own, while the case editor
 // goes on. One thread only: the window has the other processor.
 #pragma once
 

@@ -163,7 +163,7 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
 void WatchPanel::draw_events(Trainer& trainer) {
   if (!trainer.may_cause()) return;
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Trigger:");
+  ImGui::TextUnformatted("Make happen:");
   for (const cases::EventInfo& event : cases::event_kinds()) {
     if (event.source != cases::EventSource::mentor) continue;
     ImGui::SameLine();

@@ -21,7 +21,7 @@ struct EditorTrace {
   bool checking = false, entry = false;
   std::size_t lesions = 0, structures = 0;
   std::vector<std::string> failing, holding;  // checks
-  std::optional<std::size_t> rehearsed, met;  // attempts of "Can it be met?", and how many of them passed
+  std::optional<std::size_t> rehearsed, met;  // attempts of "Can it be passed?", and how many of them passed
   glm::dvec3 cursor_lps_mm{0.0};
   double mm_per_pixel = 0.0;
   // Of a CT that is prepared anew, once it is: "skin_hu -250", triangles, the farthest from the full surface.

@@ -80,7 +80,8 @@ Classification classification_of(double mean, double sd, double reliability, dou
 }
 
 Answer classification(const CutScores& of) {
-  if (of.scores.size() < kLeastScores) return refused_cut(of, "too_few", "A cut needs five persons or more.");
+  if (of.scores.size() < kLeastScores)
+    return refused_cut(of, "too_few", "Judging a cut takes five persons or more.");
   const Spread spread = spread_of(of.scores);
   if (!spread.computable) return refused_cut(of, "no_finite_answer", nullptr);
   if (!spread.varies) return refused_cut(of, "no_variation", nullptr);

@@ -30,7 +30,7 @@ void add_verdict(Html& html, const casedb::AttemptGrade& grade) {
   const bool judged = grade.grade.verdict == Verdict::passed || grade.grade.verdict == Verdict::failed;
   if (judged && grade.provisional)
     html.raw(
-        " <span class=\"mark\">provisional</span> <span class=\"why\">no standard of consultants has been set "
+        " <span class=\"mark\">provisional</span> <span class=\"why\">no consultant standard has been set "
         "for this case</span>");
   html.raw("</p>\n");
 }
