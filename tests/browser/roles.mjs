@@ -45,8 +45,9 @@ const expect = (holds, words) => {
   if (!holds) report(`${where}: ${words}`);
 };
 
+// A picture is kept of a page with a fault; of all pages tests/gallery/pages.py takes one.
 async function look(page, name) {
-  const at = `${where} ${name}`;
+  const at = `${where} ${name}`, before = faults.size;
   await page.waitForLoadState("load");
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   if (wide > 1) report(`${at}: ${wide} px wider than the screen`);
@@ -55,7 +56,7 @@ async function look(page, name) {
   for (const one of found.violations)
     if (one.impact === "serious" || one.impact === "critical")
       report(`${at}: axe ${one.id}: ${one.nodes.slice(0, 3).map((node) => node.target.join(" ")).join(", ")}`);
-  await page.screenshot({ path: `${out}/${where.replaceAll(" ", "-")}-${name}.png`, fullPage: true });
+  if (faults.size > before) await page.screenshot({ path: `${out}/${where.replaceAll(" ", "-")}-${name}.png`, fullPage: true });
 }
 
 async function logIn(context, base, name) {

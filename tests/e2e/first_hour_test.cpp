@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/page_commands.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
@@ -33,7 +34,7 @@ class FirstHour : public testing::Test {
   static void SetUpTestSuite() {
     scratch_ = fixtures::fresh_folder("first_hour");
     library_ = (scratch_ / "library").string();
-    made_ = ask("demo --drills");
+    made_ = fixtures::demo_library("--drills", library_);
   }
   static Json ask(const std::string& words) {
     const auto ran = run(kProgram + " " + words + " --json --library '" + library_ + "'", scratch_);

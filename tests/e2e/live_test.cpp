@@ -4,10 +4,8 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/demo_library.h"
@@ -162,7 +160,7 @@ TEST_F(LiveTest, WhatAKillInterruptedGoesOn) {
     const Json list = ask("attempt list");
     return list["running"].empty() ? 0.0 : list["running"][0]["stored_s"].get<double>();
   };
-  for (int i = 0; i < 300 && stored_s() < 4.0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ASSERT_TRUE(fixtures::until([&] { return stored_s() >= 4.0; }, fixtures::kPatienceS, 0.1));
   const std::string id = ask("attempt list")["running"][0]["attempt_id"];
   EXPECT_NE(fixtures::whole_file(err).find(id), std::string::npos) << "whoever started it can know";
   EXPECT_EQ(run(kProgram + " simulate --resume " + id + " --library " + library_, scratch_).exit_code, 3)

@@ -8,6 +8,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/database/sqlite.h"
 #include "sim/case/record/recording.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
@@ -29,14 +30,19 @@ struct Made {
   fixtures::Ran command(const std::string& words, const std::string& before = "") const {
     return run(before + kProgram + " " + words + " --library " + library, scratch);
   }
+  Json ask(const std::string& words) const {
+    const auto ran = command(words + " --json");
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+    return Json::parse(ran.out);
+  }
   std::string at(const std::string& name) const { return (scratch / name).string(); }
   Made() {
     for (const std::string modality : {"ultrasound", "xray", "mpr"}) {
-      const auto ran = command("demo --no-serve --json --modality " + modality);
-      EXPECT_EQ(ran.exit_code, 0) << ran.err;
-      const Json answer = Json::parse(ran.out);
+      const std::string words = "--modality " + modality;
+      const Json answer =
+          attempt.empty() ? fixtures::demo_library(words, library) : ask("demo --no-serve " + words);
       attempt[modality] = answer.at("attempts").at(2).at("attempt_id").get<std::string>();
-      const Json shown = Json::parse(command("attempt show " + attempt[modality] + " --json").out);
+      const Json shown = ask("attempt show " + attempt[modality]);
       duration_s[modality] = shown.at("duration_s").get<double>();
     }
   }

@@ -9,12 +9,12 @@
 #include <fstream>
 #include <optional>
 #include <regex>
-#include <thread>
 
 #include "tests/fixtures/files.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger {
 namespace {
@@ -63,16 +63,6 @@ class Beside {
  private:
   pid_t pid_ = -1;
 };
-
-// Until `holds`, for a minute at most.
-template <typename Holds>
-bool wait_until(Holds holds) {
-  for (int i = 0; i < 600; ++i) {
-    if (holds()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  return false;
-}
 
 int free_port() {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -123,7 +113,7 @@ TEST_F(ServingTest, TheExampleOfThePageServesOverTls) {
   Beside server(kProgram + " serve --library '" + library + "' --port 0 --behind https://sim.example.org:" + port_,
                 scratch_ / "serve.out");
   std::string url;
-  ASSERT_TRUE(wait_until([&] {
+  ASSERT_TRUE(fixtures::until([&] {
     url = fixtures::whole_file(scratch_ / "serve.out");
     return url.ends_with("\n");
   })) << fixtures::whole_file(scratch_ / "serve.out.err");
@@ -140,7 +130,7 @@ TEST_F(ServingTest, TheExampleOfThePageServesOverTls) {
          "t5;\n"
       << site << "}\n";
   Beside proxy("/usr/sbin/nginx -p '" + scratch_.string() + "' -c nginx.conf", scratch_ / "nginx.out");
-  ASSERT_TRUE(wait_until([&] { return page("/healthz").find("\"ok\"") != std::string::npos; }))
+  ASSERT_TRUE(fixtures::until([&] { return page("/healthz").find("\"ok\"") != std::string::npos; }))
       << fixtures::whole_file(scratch_ / "nginx.out.err") << fixtures::whole_file(scratch_ / "nginx.log")
       << page("/healthz");
 
@@ -196,7 +186,7 @@ TEST_F(ServingTest, WhoIsLoggedInStaysSoWhenTheServerIsKilled) {
   std::optional<Beside> server;
   const auto start = [&] {
     server.emplace(kProgram + " serve --library '" + library + "' --port " + port, scratch_ / "serve.out");
-    return wait_until([&] { return as("nobody", here + "/healthz").find("\"ok\"") != std::string::npos; });
+    return fixtures::until([&] { return as("nobody", here + "/healthz").find("\"ok\"") != std::string::npos; });
   };
   ASSERT_TRUE(start());
   for (const std::string who : {"ann", "bob"}) {

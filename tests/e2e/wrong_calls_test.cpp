@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 
@@ -23,7 +24,7 @@ TEST(WrongCalls, AreAnsweredInTheseWords) {
                              kProgram + "' " + words + " </dev/null",
                          folder / "said");
   };
-  ASSERT_EQ(type("demo --no-serve --library lib").exit_code, 0);
+  fixtures::demo_library("", at / "lib");
   const std::string before = fixtures::fingerprint(at / "lib");
   std::ifstream table(fixtures::source_dir() / "tests" / "e2e" / "wrong_calls.txt");
   int calls = 0;

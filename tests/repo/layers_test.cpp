@@ -175,6 +175,10 @@ std::map<std::string, Shelf> shelves() {
 std::string fault_of(const std::string& file, const std::string& include, const std::map<std::string, Shelf>& all) {
   const std::string folder = folder_of(file), other = folder_of(include);
   const std::string layer = layer_of(folder), other_layer = layer_of(other);
+  if (include.find("./") != std::string::npos)  // "../" too
+    return file + ": " + include + " is not written from the root";
+  if (other_layer.empty() && !other.empty() && fs::exists(kRoot / include))
+    return file + ": " + include + " is in no layer";  // tests, say
   if (other_layer.empty() || other == folder) return {};
   if (layer != other_layer && !kMayUse.at(layer).contains(other_layer))
     return file + ": " + layer + " may not use " + other_layer + " (" + include + ")";
@@ -227,7 +231,26 @@ TEST(Layers, APlantedIncludeIsFoundInEveryFolder) {
       ++planted;
     }
     EXPECT_GT(planted, 0U) << folder;
+    for (const char* beside : {"tests/fixtures/places.h", "../base/hash.h", "./planted.h"})
+      EXPECT_NE(fault_of(folder + "/planted.h", beside, all), "") << folder << " " << beside;
+    EXPECT_EQ(fault_of(folder + "/planted.h", "glm/vec3.hpp", all), "");
   }
+}
+
+// Shaders of one folder do not include those of another; what they share is in shaders/shared.
+TEST(Layers, AShaderIncludesItsOwnFolderAndWhatIsShared) {
+  const std::set<std::string> kinds = {".glsl", ".comp", ".vert", ".frag"};
+  std::size_t includes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "shaders")) {
+    if (!entry.is_regular_file() || !kinds.contains(entry.path().extension())) continue;
+    const std::string file = fs::relative(entry.path(), kRoot).string();
+    for (const std::string& include : includes_of(file)) {
+      const std::string from = "shaders/" + folder_of(include);
+      EXPECT_TRUE(from == folder_of(file) || from == "shaders/shared") << file << " includes " << include;
+      ++includes;
+    }
+  }
+  EXPECT_GT(includes, 20U);
 }
 
 TEST(Layers, NeitherLayersNorFoldersNorFilesGoInACircle) {

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <thread>
@@ -21,6 +20,7 @@
 #include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/sound_check.h"
+#include "tests/fixtures/until.h"
 #include "tests/web/fake_site.h"
 #include "tests/web/raw_client.h"
 
@@ -246,8 +246,8 @@ TEST(LibraryQuestions, AChangeThatWaitsForAnotherProgramHoldsUpNoPage) {
     EXPECT_NO_THROW(questions->log_out(mia));
     waited = true;
   });
-  while (!begun.load()) std::this_thread::yield();
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_TRUE(fixtures::until([&] { return begun.load(); }));
+  fixtures::let_pass(0.1);  // it is waiting: nothing tells when that begins
   EXPECT_EQ(questions->list_accounts().size(), 1U);
   EXPECT_FALSE(waited.load()) << "the page came while the log-out waited";
   elsewhere->database().run("ROLLBACK");

@@ -276,13 +276,14 @@ TEST(ServerStart, WhoHasAskedIsAnsweredThoughItIsStopped) {
   std::atomic<bool> inside = false, over = false;
   fake.questions->health_now = casedb::Health::ok;
   fake.questions->during_health = [&] {
-    for (inside = true; !over.load();) std::this_thread::sleep_for(milliseconds(5));
+    inside = true;
+    EXPECT_TRUE(fixtures::until([&] { return over.load(); }));
   };
   std::thread thread([&] { fake.server.run(); });
   RawClient client(fake.server.port()), half(fake.server.port());
   client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
   half.send("GET /healthz HTTP/1.1\r\n");
-  while (!inside.load()) std::this_thread::sleep_for(milliseconds(5));
+  EXPECT_TRUE(fixtures::until([&] { return inside.load(); }));
   fake.server.stop();
   EXPECT_EQ(half.read_all(), "") << "who has not asked is closed";
   over = true;

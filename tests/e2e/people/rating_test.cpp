@@ -24,7 +24,7 @@ class RatingCommands : public testing::Test {
     return ran.err.substr(from, ran.err.find(':', from) - from);
   }
   void SetUp() override {
-    library_.done("demo --drills --no-serve");
+    library_.demo("--drills");
     for (const char* user : {"rita --role researcher", "mona --role mentor", "tina --role trainee"})
       library_.done(std::string("user add ") + user);
     fixtures::run(

@@ -5,10 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <thread>
 
 #include "app/attempts/this_program.h"
 #include "session/attempt/interrupted_attempt.h"
@@ -20,6 +18,7 @@
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
 #include "tests/fixtures/places.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::session {
 namespace {
@@ -67,13 +66,11 @@ class ResumeTest : public testing::Test {
       ::_exit(0);
     }
     casedb::Library library = open();
-    const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     const auto stored = [&] {
       const auto attempts = casedb::list_open_attempts(library);
       return attempts.empty() ? 0 : attempts[0].chunks;
     };
-    while (stored() < chunks && std::chrono::steady_clock::now() < until)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(fixtures::until([&] { return stored() >= chunks; }, 2 * fixtures::kPatienceS, 0.02));
     ASSERT_EQ(::kill(child, SIGKILL), 0);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
@@ -113,7 +110,7 @@ TEST_F(ResumeTest, AfterAKillTheAttemptGoesOnAndIsOneRecording) {
   casedb::Library library = open();
   const std::string id = casedb::list_open_attempts(library).at(0).attempt_id;
   const cases::Recording before = casedb::load_open_recording(library, id).value();
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // away
+  fixtures::let_pass(0.3);  // as long as nobody is at it: the gap is recorded
 
   auto interrupted = InterruptedAttempt::take(library, id);
   ASSERT_TRUE(interrupted) << interrupted.error().text;

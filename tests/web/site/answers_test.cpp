@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/fixtures/until.h"
+
 namespace seldinger::web {
 namespace {
 
@@ -27,7 +29,7 @@ TEST(Answers, SixtyAtOnceMakeOneAndNeverTwoAtATime) {
       const auto text = answers.get(i % 2 == 0 ? "a" : "b", [&]() -> base::Result<Answers::Made> {
         ++made;
         most = std::max(most.load(), ++inside);
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        fixtures::let_pass(0.02);  // as long as others need to come
         --inside;
         return Answers::Made{"text", true};
       });

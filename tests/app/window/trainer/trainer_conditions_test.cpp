@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <thread>
 
 #include "session/attempt/replayed_attempt.h"
 #include "tests/app/window/trainer/trainer_case.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::app {
 namespace {
@@ -37,7 +37,7 @@ TEST_F(TrainerTest, TheConditionsOfAnAttemptAreKept) {
   tell();
   ASSERT_TRUE(until_seen([&] { return seen.in_guide; }));
   attempt.pause(true);
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  fixtures::let_pass(0.4);  // how long it was paused is kept
   attempt.pause(false);
   const double paused_at_s = seen.moment.state.t_s;
   ASSERT_TRUE(until_seen([&] { return seen.moment.state.t_s > paused_at_s + 0.1; }));

@@ -46,6 +46,8 @@ struct Agreement {
 // What most of a voxel of the organs' grid is, by its middle and places a third of it off.
 std::vector<FoundOrgan> truth_of(const Organs& organs, const Volume& volume, const LabelMap& labels) {
   const glm::dmat4 volume_from_grid = voxel_from_lps(volume) * organs.grid.lps_from_voxel;
+  std::vector<std::array<FoundOrgan, 2>> of_label;  // names are read once: to the right of the middle, to the left
+  for (const std::string& name : labels.names) of_label.push_back({organ_of(name, -1.0), organ_of(name, 1.0)});
   const glm::ivec3 n = organs.grid.size_voxels;
   std::vector<FoundOrgan> made;
   for (int k = 0; k < n.z; ++k)
@@ -57,9 +59,8 @@ std::vector<FoundOrgan> truth_of(const Organs& organs, const Volume& volume, con
                               1.0);
           const glm::ivec3 from = glm::clamp(glm::ivec3(glm::round(glm::dvec3(volume_from_grid * at))),
                                              glm::ivec3(0), volume.size_voxels - 1);
-          ++count[static_cast<std::size_t>(
-              organ_of(labels.names[labels.label[volume.index(from.x, from.y, from.z)]],
-                       (organs.grid.lps_from_voxel * at).x))];
+          const bool left = (organs.grid.lps_from_voxel * at).x >= 0.0;
+          ++count[static_cast<std::size_t>(of_label[labels.label[volume.index(from.x, from.y, from.z)]][left])];
         }
         made.push_back(FoundOrgan(std::max_element(count.begin(), count.end()) - count.begin()));
       }
