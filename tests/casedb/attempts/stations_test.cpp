@@ -51,7 +51,7 @@ class StationsTest : public testing::Test {
   std::string bob_ = add_user(library_, "bob", Role::trainee, "correct horse battery").value();
   std::string other_ = add_user(library_, "other", Role::trainee, "correct horse battery").value();
   std::optional<cases::ServoRecord> servo_;
-  std::string operator_name_ = kPersonOperator;
+  std::string operator_name_{kPersonOperator};
 };
 
 constexpr std::int64_t kDay = 86'400'000'000;
