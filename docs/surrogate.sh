@@ -46,22 +46,27 @@ for level in novice expert intermediate; do
 done
 made part 5 12 12 --attempts "$attempts" "$@"
 
-# One that is off is told, and is no reason to tell nothing else.
+# What is told stays while the surrogate does, but for the check, whose attempts may be more. One that is off is told,
+# and is no reason to tell nothing else.
 told() {
   name=$1
   shift
+  [ ! -e "$folder/$name".md ] || return 0
   "$program" surrogate "$@" --surrogate "$folder/surrogate.json" >"$folder/$name".new || [ $? -eq 1 ]
   mv "$folder/$name".new "$folder/$name".md
 }
+forget() {
+  for name in "$@"; do rm -f "$folder/$name".md "$folder/$name".svg; done
+}
 summed part
-cmp -s "$folder/part.json" "$folder/surrogate.json" || rm -f "$folder/effects.md" "$folder/coverage.md"
+cmp -s "$folder/part.json" "$folder/surrogate.json" || forget effects coverage
 mv "$folder/part.json" "$folder/surrogate.json"
+forget check
 set --
 for level in novice intermediate expert shift-0 shift-0.8; do
   summed $level
   [ ! -e "$folder/$level.json" ] || set -- "$@" --against "$folder/$level.json"
 done
 told check check "$@"
-[ -e "$folder/effects.md" ] || rm -f "$folder/effects.svg"
-[ -e "$folder/effects.md" ] || told effects effects --chart "$folder/effects.svg"
-[ -e "$folder/coverage.md" ] || told coverage coverage
+told effects effects --chart "$folder/effects.svg"
+told coverage coverage
