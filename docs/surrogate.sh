@@ -3,48 +3,68 @@
 #
 #   docs/surrogate.sh FOLDER --case 'Drill 2' --library LIBRARY
 #
-# What FOLDER holds already is not made again, so that a run that was cut off is begun again with the same words. Parts
-# come first that are needed first: with all levels and the half of the parts there is a surrogate, and every further
-# part makes it a better one; STOP_AT (seconds since the epoch) says when no further part is begun. A case that has
-# changed since, or a program with another law, wants another folder: `surrogate fit --from` refuses parts of both.
+# What FOLDER holds already is not made again, so that a run that was cut off is begun again with the same words.
+# Attempts come in parts. Those come first without which something cannot be told at all: a third of what the surrogate
+# is fitted to, the pools at two shifts, the levels that it does not know; every further part makes it a better one.
+# STOP_AT (seconds since the epoch) says when no further part is begun; what is told then is of the parts that are
+# there. A case that has changed since, or a program with another law, wants another folder: `surrogate fit --from`
+# refuses parts of both.
 #
-# SELDINGER names the program where it is not on the PATH; ATTEMPTS (3600) and HELD_OUT (500, of each level) how many.
+# SELDINGER names the program where it is not on the PATH; ATTEMPTS (3600) how many it is fitted to, HELD_OUT (500, of
+# each level) and POOL (300, of each shift) how many it does not know.
 set -eu
 folder=$1
 shift
 program=${SELDINGER:-seldinger}
-attempts=${ATTEMPTS:-3600} held_out=${HELD_OUT:-500} stop_at=${STOP_AT:-9999999999}
-parts=12
+attempts=${ATTEMPTS:-3600} held_out=${HELD_OUT:-500} pool=${POOL:-300} stop_at=${STOP_AT:-9999999999}
 mkdir -p "$folder"
+# name: its parts are NAME-1.json, …; from, to, of: which parts of how many; then how they are made.
 made() {
+  name=$1 number=$2 to=$3 of=$4
+  shift 4
+  while [ "$number" -le "$to" ]; do
+    [ -e "$folder/$name-$number.json" ] || [ "$(date +%s)" -ge "$stop_at" ] ||
+      "$program" surrogate fit "$@" --shard "$number/$of" --out "$folder/$name-$number.json"
+    number=$((number + 1))
+  done
+}
+# The sum of the parts that are there, anew: there may be more of them than last time.
+summed() {
   name=$1
-  shift
-  [ -e "$folder/$name.json" ] || [ "$(date +%s)" -ge "$stop_at" ] ||
-    "$program" surrogate fit "$@" --out "$folder/$name.json"
+  rm -f "$folder/$name.json"
+  set --
+  for part in "$folder/$name"-[0-9]*.json; do [ ! -e "$part" ] || set -- "$@" --from "$part"; done
+  [ $# -eq 0 ] || "$program" surrogate fit "$@" --out "$folder/$name.json"
 }
-part() {
-  number=$1
-  shift
-  made "part-$number" --attempts "$attempts" --shard "$number/$parts" "$@"
-}
-for number in 1 2 3 4 5 6; do part $number "$@"; done
+made part 1 4 12 --attempts "$attempts" "$@"
 # People of another seed are others: the surrogate does not know them.
-for group in novice intermediate expert; do made $group --group $group --attempts "$held_out" --seed 1000001 "$@"; done
-for number in 7 8 9 10 11 12; do part $number "$@"; done
-for shift in 0 0.8; do made "shift-$shift" --group $shift --attempts 300 --seed 1000001 "$@"; done
+for shift in 0 0.8; do
+  made "shift-$shift" 1 3 3 --group $shift --attempts "$pool" --seed 1000001 "$@"
+done
+for level in novice expert intermediate; do
+  made $level 1 5 5 --group $level --attempts "$held_out" --seed 1000001 "$@"
+done
+made part 5 12 12 --attempts "$attempts" "$@"
 
-set --
-for part in "$folder"/part-*.json; do set -- "$@" --from "$part"; done
-rm -f "$folder/surrogate.json"  # of fewer parts
-"$program" surrogate fit "$@" --out "$folder/surrogate.json"
-# One that is off is told, and is no reason to tell nothing else.
+# What is told stays while the surrogate does, but for the check, whose attempts may be more. One that is off is told,
+# and is no reason to tell nothing else.
 told() {
   name=$1
   shift
-  "$program" surrogate "$@" --surrogate "$folder/surrogate.json" >"$folder/$name".md || [ $? -eq 1 ]
+  [ ! -e "$folder/$name".md ] || return 0
+  "$program" surrogate "$@" --surrogate "$folder/surrogate.json" >"$folder/$name".new || [ $? -eq 1 ]
+  mv "$folder/$name".new "$folder/$name".md
 }
+forget() {
+  for name in "$@"; do rm -f "$folder/$name".md "$folder/$name".svg; done
+}
+summed part
+cmp -s "$folder/part.json" "$folder/surrogate.json" || forget effects coverage
+mv "$folder/part.json" "$folder/surrogate.json"
+forget check
 set --
 for level in novice intermediate expert shift-0 shift-0.8; do
+  summed $level
   [ ! -e "$folder/$level.json" ] || set -- "$@" --against "$folder/$level.json"
 done
 told check check "$@"

@@ -17,7 +17,7 @@ void print_comparison(const casedb::Comparison& comparison) {
   std::printf("%s, %s\n%s\n", comparison.row.title.c_str(), casedb::name_of(comparison.manner.modality).c_str(),
               reports::experts_text(comparison.experts).c_str());
   if (comparison.dependability)
-    std::printf("What passing says about people: %s\n",
+    std::printf("%s: %s\n", std::string(reports::kWhatPassingShows).c_str(),
                 reports::dependability_text(*comparison.dependability, casedb::Learners::people).c_str());
   for (const casedb::ComparedGroup& group : comparison.groups) {
     std::printf("\n%s: passed %zu of %zu, with a critical error %zu\n", reports::group_label(group).c_str(),

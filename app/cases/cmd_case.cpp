@@ -79,7 +79,7 @@ int run_case_show(const Arguments& arguments) {
     std::printf("%s %s\n", one.critical ? "critical  " : "pass      ", assessment::text_of(one).c_str());
   if (!row.rule.criteria.empty()) {
     const auto dependability = casedb::dependability(casedb::learning_attempts(*library, casedb::Learners::people));
-    std::printf("tells      %s\n", reports::dependability_text(dependability, casedb::Learners::people).c_str());
+    std::printf("shows      %s\n", reports::dependability_text(dependability, casedb::Learners::people).c_str());
   }
   for (const casedb::Decision& one : parts->decisions)
     std::printf("%s by %s%s%s\n", casedb::name_of(one.kind).c_str(), one.who().c_str(),

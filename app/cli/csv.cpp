@@ -52,7 +52,7 @@ base::Result<CsvRows> rows_in_csv(const std::string& text, std::span<const char*
         place = i;
         ++found;
       }
-    if (found != 1) bad(std::string("column ") + name + (found == 0 ? " is missing" : " stands twice"));
+    if (found != 1) bad(std::string("column ") + name + (found == 0 ? " is missing" : " is there twice"));
     return place;
   };
   std::vector<std::size_t> places;

@@ -27,7 +27,7 @@ struct ReadTable {
 // Comma-separated; by semicolons or tabs where the header holds these and, outside of quotes, no comma. A
 // byte-order mark, and columns beside those asked for, are let pass. Empty cells, NA and NaN are missing. A text
 // without any line is a table without rows. Refused: `bad_csv` (no text in UTF-8, no CSV, a column that is missing
-// or stands twice, a row of another length, no finite number; at most ten are told, by row, counted from 1 after
+// or is there twice, a row of another length, no finite number; at most ten are told, by row, counted from 1 after
 // the header, and column). Errors never hold what a cell holds: it may identify somebody.
 base::Result<ReadTable> table_in_csv(const std::string& text, const TableColumns& columns);
 

@@ -32,7 +32,8 @@ int run_study_list(const Arguments& arguments) {
   }
   if (studies.empty()) std::puts("There are no studies yet; `seldinger study new` makes one.");
   for (const casedb::Study& one : studies)
-    std::printf("%s  %-32s %s\n", one.study_id.c_str(), one.title.c_str(), reports::consent_text(one).c_str());
+    std::printf("%s  %-32s %s\n", one.study_id.c_str(), one.title.c_str(),
+                reports::study_people_text(one.people).c_str());
   return kDone;
 }
 

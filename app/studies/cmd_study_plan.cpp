@@ -77,7 +77,7 @@ int run_study_show(const Arguments& arguments) {
   std::printf("%s\nplan %s, %s\n", plan->plan.title.c_str(), plan->body_hash.c_str(), state_of(*plan).c_str());
   if (lock)
     std::printf("data %s, locked %s\n", lock->data_hash.c_str(), reports::utc_text(lock->locked_us).c_str());
-  std::printf("%s, %zu are enrolled\n", reports::consent_text(open->study).c_str(), enrolments.size());
+  std::printf("%s, %zu are enrolled\n", reports::study_people_text(open->study.people).c_str(), enrolments.size());
   for (const auto& group : plan->plan.groups)
     std::printf("  %-24s %td\n", group.name.c_str(),
                 std::count_if(enrolments.begin(), enrolments.end(),
@@ -91,7 +91,7 @@ int run_study_show(const Arguments& arguments) {
   return kDone;
 }
 
-// Everybody who consents and takes no part yet; of those who cannot a count for each reason.
+// Everybody who may and takes no part yet; of those who cannot a count for each reason.
 Enrolled enrol_all(casedb::Library& library, const casedb::StoredPlan& plan) {
   Enrolled enrolled;
   std::map<std::pair<std::string, std::string>, int> refused;  // by code and words
@@ -166,9 +166,8 @@ int run_study_look(const Arguments& arguments) {
     if (arguments.has("--json"))
       std::fputs(json_of_blinded(*plan, counts).c_str(), stdout);
     else
-      std::printf(
-          "The plan is a draft, so nothing is shown by group: %zu consent, %zu of them made %zu attempts.\n",
-          counts.consenting, counts.with_attempts, counts.attempts);
+      std::printf("The plan is a draft, so nothing is shown by group: %s, %zu of them made %zu attempts.\n",
+                  reports::study_people_text(counts.people).c_str(), counts.with_attempts, counts.attempts);
     return kDone;
   }
   casedb::StudyData data = casedb::study_data(open->library, *plan);

@@ -97,8 +97,8 @@ std::string json_of_studies(const std::vector<casedb::Study>& studies) {
   for (const casedb::Study& one : studies)
     list.push_back({{"study_id", one.study_id},
                     {"title", one.title},
-                    {"consenting", one.consenting},
-                    {"simulated", one.simulated}});
+                    {"consenting", one.people.consenting()},
+                    {"simulated", one.people.simulated_people()}});
   return casedb::text({{"studies", list}});
 }
 
@@ -119,8 +119,8 @@ std::string json_of_study(const casedb::Study& study, const casedb::StoredPlan& 
                           const std::vector<casedb::StudyNote>& deviations) {
   Json json = head_of(plan), people = Json::array();
   json["title"] = study.title;
-  json["consenting"] = study.consenting;
-  json["simulated"] = study.simulated;
+  json["consenting"] = study.people.consenting();
+  json["simulated"] = study.people.simulated_people();
   json["plan"] = Json::parse(plan.body);
   for (const casedb::StudyEnrolment& one : enrolments) people.push_back(json_of(one));
   json["enrolments"] = std::move(people);
@@ -140,7 +140,8 @@ std::string json_of_enrolled(const Enrolled& enrolled) {
 std::string json_of_blinded(const casedb::StoredPlan& plan, const casedb::BlindedCounts& counts) {
   Json json = head_of(plan);
   json["blinded"] = true;
-  json["consenting"] = counts.consenting;
+  json["consenting"] = counts.people.consenting();
+  json["simulated"] = counts.people.simulated_people();
   json["with_attempts"] = counts.with_attempts;
   json["attempts"] = counts.attempts;
   return casedb::text(json);
@@ -158,7 +159,8 @@ std::string json_of_result(const casedb::StoredPlan& plan, const study::StudyRes
                       {"withdrew", one.withdrew},
                       {"attempted", one.attempted},
                       {"analysed", one.analysed}});
-  json["flow"] = {{"consenting", flow.consenting},
+  json["flow"] = {{"consenting", flow.people.consenting()},
+                  {"simulated", flow.people.simulated_people()},
                   {"enrolled", flow.ever_enrolled},
                   {"erased", flow.unknown},
                   {"groups", groups}};

@@ -31,7 +31,7 @@ struct Enrolled {
 };
 std::string json_of_enrolled(const Enrolled& enrolled);
 
-// Before the freeze: {"blinded":true,"consenting","with_attempts","attempts"}.
+// Before the freeze: {"blinded":true,"consenting","simulated","with_attempts","attempts"}.
 std::string json_of_blinded(const casedb::StoredPlan& plan, const casedb::BlindedCounts& counts);
 std::string json_of_result(const casedb::StoredPlan& plan, const assessment::study::StudyResult& result,
                            const casedb::ParticipantFlow& flow, const std::string& data_hash);

@@ -15,7 +15,7 @@ enum class Proficiency { not_started, practising, passed, proficient };
 std::string_view name_of(Proficiency proficiency) noexcept;
 std::optional<Proficiency> proficiency_from(std::string_view name) noexcept;
 
-// Proficient: two passes running (docs/clinical.md, "Passing"), once at any time: what was reached stays.
+// Proficient: two passes in a row (docs/clinical.md, "Passing"), once at any time: what was reached stays.
 // `verdicts` are of all attempts, oldest first. One that is not gradable, or has no rule, neither makes nor breaks
 // a run.
 Proficiency proficiency_of(std::span<const Verdict> verdicts);
@@ -23,7 +23,7 @@ Proficiency proficiency_of(std::span<const Verdict> verdicts);
 // Which attempt first made somebody proficient.
 std::optional<std::size_t> proficient_at(std::span<const Verdict> verdicts);
 
-// How many passes running, from now on, that takes; 0 of who is.
+// How many passes in a row, from now on, that takes; 0 of who is.
 int passes_missing(std::span<const Verdict> verdicts);
 
 struct Gate {

@@ -113,7 +113,7 @@ std::vector<base::Problem> problems_of(const PassRule& rule, const Guidance& gui
     const Criterion& one = rule.criteria[i];
     const MetricInfo* info = find_metric(one.metric);
     if (info == nullptr)
-      problems.push_back({"unknown_metric", "no metric is called " + one.metric});
+      problems.push_back({"unknown_metric", "there is no metric called " + one.metric});
     else if (const int version = version_of(*info, guidance.sight_law); version != one.version)
       problems.push_back({"other_version", one.metric + " is measured by version " + std::to_string(version) +
                                                ", not " + std::to_string(one.version) +

@@ -26,7 +26,7 @@ std::optional<Json> object_in(const std::string& text, const char* code, std::ve
 ObjectReader::ObjectReader(const Json& json, std::string where, std::vector<base::Problem>& wrong, const char* code,
                            const char* whole)
     : json_(json), where_(std::move(where)), wrong_(wrong), code_(code), whole_(whole) {
-  if (!json_.is_object()) bad("", "is no object");
+  if (!json_.is_object()) bad("", "must be an object");
 }
 
 ObjectReader::~ObjectReader() {
@@ -55,7 +55,7 @@ std::vector<std::pair<const Json*, std::string>> ObjectReader::list(const char* 
   }
   const Json& value = json_.at(field);
   if (!value.is_array() || value.size() < least || value.size() > most) {
-    bad(field, "is no list of " + std::to_string(least) + " to " + std::to_string(most));
+    bad(field, "must be a list of " + std::to_string(least) + " to " + std::to_string(most));
     return elements;
   }
   const std::string place = where_.empty() ? std::string(field) : where_ + "." + field;

@@ -25,7 +25,7 @@ class FormReader : public ObjectReader {
     if (!value.is_string() || text.size() > kMostWords ||
         (needed && text.find_first_not_of(" \n\t") == std::string::npos) ||
         std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
-      bad(field, "is no line of 1 to " + std::to_string(kMostWords) + " bytes of text");
+      bad(field, "must be one line of 1 to " + std::to_string(kMostWords) + " bytes of text");
     return text;
   }
   // Small letters, digits and dashes: it stands in file names, addresses and columns.
@@ -35,23 +35,23 @@ class FormReader : public ObjectReader {
       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || (upper && c >= 'A' && c <= 'Z');
     };
     if (!text.empty() && (text.size() > kMostId || !std::all_of(text.begin(), text.end(), fits)))
-      bad(field, "is no id: up to " + std::to_string(kMostId) + " letters, digits and dashes");
+      bad(field, "must be an id: up to " + std::to_string(kMostId) + " letters, digits and dashes");
     return text;
   }
   double number(const char* field, double least, double most) {
     const double value = has(field) && json_.at(field).is_number() ? json_.at(field).get<double>() : std::nan("");
     if (value >= least && value <= most) return value;
-    bad(field, "is missing, or no number in its range");
+    bad(field, "is missing, or not a number in its range");
     return least;
   }
   int whole(const char* field, int least, int most) {
     const double value = number(field, least, most);
-    if (value != std::floor(value)) bad(field, "is no whole number");
+    if (value != std::floor(value)) bad(field, "must be a whole number");
     return static_cast<int>(value);
   }
   bool flag(const char* field) {
     if (!has(field)) return false;
-    if (!json_.at(field).is_boolean()) bad(field, "is neither true nor false");
+    if (!json_.at(field).is_boolean()) bad(field, "must be true or false");
     return json_.at(field).is_boolean() && json_.at(field).get<bool>();
   }
   std::vector<std::string> lines(const char* field, std::size_t least, std::size_t most) {
@@ -60,7 +60,7 @@ class FormReader : public ObjectReader {
       const std::string text = json->is_string() ? json->get<std::string>() : std::string();
       if (text.empty() || text.size() > kMostWords)
         wrong_.push_back(
-            {"bad_form", place + " is no line of 1 to " + std::to_string(kMostWords) + " bytes of text"});
+            {"bad_form", place + " must be one line of 1 to " + std::to_string(kMostWords) + " bytes of text"});
       all.push_back(text);
     }
     return all;
@@ -90,13 +90,13 @@ Scale read_scale(const Json& json, const std::string& where, std::vector<base::P
 void read_kind(FormReader& reader, const Form& form, Item& item) {
   const std::string kind = reader.words("kind", true);
   const auto found = base::from_name(kItemKindNames, kind);
-  if (!found) reader.bad("kind", "is none of: scale, choice, number, comment");
+  if (!found) reader.bad("kind", "must be one of: scale, choice, number, comment");
   item.kind = found.value_or(ItemKind::comment);
   const bool is_scale = item.kind == ItemKind::scale;
   if (is_scale) {
     item.scale = reader.id("scale");
     if (!item.scale.empty() && form.find_scale(item.scale) == nullptr)
-      reader.bad("scale", "is no scale of the form");
+      reader.bad("scale", "is not a scale of the form");
   }
   if (item.kind == ItemKind::choice) {
     item.choices = reader.lines("choices", 2, 20);
@@ -115,8 +115,8 @@ void read_kind(FormReader& reader, const Form& form, Item& item) {
   }
   item.reverse = reader.flag("reverse");
   item.not_applicable = reader.flag("not_applicable");
-  if (item.reverse && !is_scale) reader.bad("reverse", "is of items on a scale only");
-  if (item.not_applicable && item.kind == ItemKind::comment) reader.bad("not_applicable", "is of no comment");
+  if (item.reverse && !is_scale) reader.bad("reverse", "is for items on a scale only");
+  if (item.not_applicable && item.kind == ItemKind::comment) reader.bad("not_applicable", "is not for comments");
 }
 
 void read_form(const Json& json, Form& form, std::vector<base::Problem>& wrong) {
@@ -131,14 +131,14 @@ void read_form(const Json& json, Form& form, std::vector<base::Problem>& wrong) 
   for (const auto& [one, place] : reader.list("scales", 0, 20)) {
     Scale scale = read_scale(*one, place, wrong);
     if (!scale.id.empty() && form.find_scale(scale.id) != nullptr)
-      wrong.push_back({"bad_form", place + ".id is another scale's too"});
+      wrong.push_back({"bad_form", place + ".id is also another scale's"});
     form.scales.push_back(std::move(scale));
   }
   for (const auto& [one, place] : reader.list("items", 1, kMostItems)) {
     FormReader read(*one, place, wrong);
     Item item;
     item.id = read.id("id");
-    if (!item.id.empty() && form.find_item(item.id) != nullptr) read.bad("id", "is another item's too");
+    if (!item.id.empty() && form.find_item(item.id) != nullptr) read.bad("id", "is also another item's");
     item.section = read.words("section", false);
     item.text = read.words("text", true);
     for (const Item& other : form.items)

@@ -183,7 +183,7 @@ void compare(const Plan& plan, const std::vector<StudyPerson>& people, Compared&
   made.second = sum_of(outcome.second, made.people);
   if (collected.other_versions > 0) {
     made.refused = std::to_string(collected.other_versions) +
-                   " attempts have the metric in another version than the plan's " +
+                   " attempts have the metric in a version other than the plan's " +
                    std::to_string(outcome.version) +
                    ": what is measured differently is not compared. `seldinger recompute` adds versions.";
     return;
@@ -191,7 +191,7 @@ void compare(const Plan& plan, const std::vector<StudyPerson>& people, Compared&
   if (made.hands.size() > 1 && plan.hands == Hands::one) {
     made.refused = "The needle was led by different kinds of hands (";
     for (std::size_t i = 0; i < made.hands.size(); ++i) made.refused += (i == 0 ? "" : ", ") + made.hands[i];
-    made.refused += "), and the plan has them not compared together.";
+    made.refused += "), and the plan does not compare them together.";
     return;
   }
   made.answer = tested(outcome, made.people, rule_of(plan));
@@ -380,7 +380,7 @@ Collected collect(const Plan& plan, const Outcome& outcome, const std::vector<St
         why = "without this version of the metric";
       }
       const Contribution one = why.empty() ? contribution_of(*info, attempt.metrics) : Contribution{};
-      if (why.empty() && one.counted == Counted::left_out) why = "the metric says nothing of it";
+      if (why.empty() && one.counted == Counted::left_out) why = "the metric says nothing about it";
       if (!why.empty()) {
         note(collected.left_out, why);
         continue;

@@ -19,7 +19,7 @@ using Laws = std::map<std::string, cases::SightLaw>;  // by case
 void check_outcome(const Outcome& outcome, const Laws& laws, const std::string& place,
                    std::vector<base::Problem>& wrong) {
   const MetricInfo* info = find_metric(outcome.metric);
-  if (info == nullptr) return bad(wrong, place + ".metric", "is no metric (docs/metrics.md)");
+  if (info == nullptr) return bad(wrong, place + ".metric", "is not a metric (docs/metrics.md)");
   const auto law = laws.find(outcome.case_id);
   const int version = version_of(*info, law == laws.end() ? cases::kNewestSightLaw : law->second);
   if (version != outcome.version)
@@ -34,7 +34,7 @@ void check_outcome(const Outcome& outcome, const Laws& laws, const std::string& 
         "is missing: who neither fired nor deferred has no value for a difference of means; give one, or take "
         "brunner_munzel, which ranks them last");
   if (outcome.failure_value && (outcome.test != Test::welch || !fails))
-    bad(wrong, place + ".failure_value", "has no place here: nobody is given a value");
+    bad(wrong, place + ".failure_value", "does not belong here: nobody is given a value");
 }
 
 std::optional<double> number_in(std::string_view text) {
@@ -61,8 +61,7 @@ std::vector<base::Problem> problems_of(const Plan& plan, const Laws& laws) {
     const MetricInfo* info = find_metric(plan.exclusions[i].metric);
     if (info == nullptr || info->group != Group::recording)
       bad(wrong, "exclusions[" + std::to_string(i) + "].metric",
-          "is no metric of the recording: attempts are left out for what their recording is worth, not for what "
-          "was "
+          "is not a metric of the recording: attempts are left out for a poor recording, not for what was "
           "achieved");
   }
   return wrong;

@@ -68,7 +68,7 @@ struct Outcome {
   std::string impute_from{};
 };
 
-enum class People { real, simulated };  // whose attempts: of people, or what simulated operators did in their names
+enum class People { real, simulated };  // whose attempts
 inline constexpr auto kPeopleNames =
     base::names<People>({{People::real, "real"}, {People::simulated, "simulated"}});
 // What leads the needle: more than one kind makes the outcome not analysed, or each a comparison of its own.

@@ -26,13 +26,13 @@ class PlanReader : public ObjectReader {
     if (!value.is_string() || text.size() > most || (needed && blank) ||
         std::any_of(text.begin(), text.end(),
                     [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n'; }))
-      bad(field, "is no text of 1 to " + std::to_string(most) + " bytes");
+      bad(field, "must be text of 1 to " + std::to_string(most) + " bytes");
     return text;
   }
   std::string name(const char* field) {
     std::string text = words(field, true, kMostName);
     if (text.find('\n') != std::string::npos || text.starts_with(' ') || text.ends_with(' '))
-      bad(field, "is no name: one line without blanks at its ends");
+      bad(field, "must be a name on one line, with no space at either end");
     return text;
   }
   double number(const char* field, std::optional<double> fallback, double least, double most) {
@@ -43,12 +43,12 @@ class PlanReader : public ObjectReader {
     const Json& value = json_.at(field);
     const double number = value.is_number() ? value.get<double>() : std::nan("");
     if (number >= least && number <= most) return number;
-    bad(field, "is no number in its range");
+    bad(field, "must be a number in its range");
     return fallback.value_or(least);
   }
   int whole(const char* field, std::optional<double> fallback, int least, int most) {
     const double value = number(field, fallback, least, most);
-    if (value != std::floor(value)) bad(field, "is no whole number");
+    if (value != std::floor(value)) bad(field, "must be a whole number");
     return static_cast<int>(value);
   }
   template <const auto& table>
@@ -64,14 +64,14 @@ class PlanReader : public ObjectReader {
       std::string known;
       for (const std::string_view one : base::kNamesOf<table>)
         known += (known.empty() ? "" : ", ") + std::string(one);
-      bad(field, "is none of: " + known);
+      bad(field, "must be one of: " + known);
     }
     return found.value_or(table.front().value);
   }
   Comparison comparison(const char* field) {
     const std::string sign = words(field, true, 2);
     const auto found = comparison_from(sign);
-    if (!found && !sign.empty()) bad(field, "is none of: <=, >=, =");
+    if (!found && !sign.empty()) bad(field, "must be one of: <=, >=, =");
     return found.value_or(Comparison::equal);
   }
   std::vector<std::string> texts(const char* field) {
@@ -79,7 +79,7 @@ class PlanReader : public ObjectReader {
     for (const auto& [json, place] : list(field, 0, kMostList)) {
       const std::string text = json->is_string() ? json->get<std::string>() : std::string();
       if (text.empty() || text.size() > kMostWords)
-        wrong_.push_back({"bad_study_plan", place + " is no text of 1 to 4000 bytes"});
+        wrong_.push_back({"bad_study_plan", place + " must be text of 1 to 4000 bytes"});
       all.push_back(text);
     }
     return all;
@@ -109,11 +109,12 @@ Outcome read_outcome(const Json& json, const std::string& where, const Plan& pla
   for (const auto& [name, place] : compared) {
     const std::string text = name->is_string() ? name->get<std::string>() : std::string();
     (place.ends_with("[0]") ? outcome.first : outcome.second) = text;
-    if (find_group(plan, text) == nullptr) wrong.push_back({"bad_study_plan", place + " is no group of the plan"});
+    if (find_group(plan, text) == nullptr)
+      wrong.push_back({"bad_study_plan", place + " is not a group of the plan"});
   }
   if (compared.size() == 2 && outcome.first == outcome.second) reader.bad("compare", "names one group twice");
   if (!outcome.visit.empty() && find_visit(plan, outcome.visit) == nullptr)
-    reader.bad("visit", "is no visit of the plan");
+    reader.bad("visit", "is not a visit of the plan");
   return outcome;
 }
 
@@ -132,7 +133,7 @@ void read_argument(PlanReader& reader, Plan& plan, std::vector<base::Problem>& w
             [](const Claim& a, const Claim& b) { return a.inference < b.inference; });
   for (std::size_t i = 1; i < plan.argument.size(); ++i)
     if (plan.argument[i].inference == plan.argument[i - 1].inference)
-      return reader.bad("argument", "has not one claim for each of Kane's four inferences");
+      return reader.bad("argument", "must have one claim for each of Kane's four inferences");
 }
 
 void read_groups(PlanReader& reader, Plan& plan, std::vector<base::Problem>& wrong) {
@@ -144,7 +145,7 @@ void read_groups(PlanReader& reader, Plan& plan, std::vector<base::Problem>& wro
     PlannedGroup group;
     group.name = one.name("name");
     if (group.name.find(':') != std::string::npos) one.bad("name", "holds a colon");
-    if (!group.name.empty() && find_group(plan, group.name) != nullptr) one.bad("name", "is another group's too");
+    if (!group.name.empty() && find_group(plan, group.name) != nullptr) one.bad("name", "is also another group's");
     if (arms) group.ratio = one.whole("ratio", 1, 1, 10);
     if (!arms)
       for (const auto& [fact, at] : one.list("facts", 1, kMostList)) {
@@ -167,7 +168,7 @@ void read_randomisation(PlanReader& reader, Plan& plan, std::vector<base::Proble
     if (plan.randomised) reader.bad("randomisation", "is missing");
     return;
   }
-  if (!plan.randomised) return reader.bad("randomisation", "has no place: the groups are no arms");
+  if (!plan.randomised) return reader.bad("randomisation", "does not belong here: the groups are not arms");
   PlanReader one(reader.at("randomisation"), "randomisation", wrong);
   plan.randomisation.strata = one.texts("strata");
   int places = 0;
@@ -177,7 +178,7 @@ void read_randomisation(PlanReader& reader, Plan& plan, std::vector<base::Proble
                          ? json->get<int>()
                          : 0;
     if (size == 0 || places == 0 || size % places != 0)
-      wrong.push_back({"bad_study_plan", place + " is no multiple, up to 100, of the sum of the arms' ratios"});
+      wrong.push_back({"bad_study_plan", place + " must be a multiple, up to 100, of the sum of the arms' ratios"});
     plan.randomisation.block_sizes.push_back(size);
   }
 }
@@ -202,7 +203,7 @@ void read_outcomes(PlanReader& reader, Plan& plan, std::vector<base::Problem>& w
   std::set<std::string> names;
   for (const auto* outcomes : {&plan.primary, &plan.secondary})
     for (const Outcome& one : *outcomes)
-      if (!names.insert(one.name).second) reader.bad("primary", "and secondary name two outcomes alike");
+      if (!names.insert(one.name).second) reader.bad("primary", "and secondary give two outcomes the same name");
 }
 
 // What absent people are imputed from, and whether there is anything to impute.
@@ -212,16 +213,16 @@ void check_imputation(PlanReader& reader, const Plan& plan) {
   if (plan.imputations != 0 && plan.imputations < kLeastImputations)
     reader.bad("missing.imputations", "are fewer than 10");
   if (plan.imputations > 0 && !of_means)
-    reader.bad("missing.imputations", "have no place: no primary outcome has the test welch");
+    reader.bad("missing.imputations", "do not belong here: no primary outcome has the test welch");
   if (plan.imputations > 0 && plan.absent == Absent::failure)
-    reader.bad("missing.imputations", "have no place: who is absent counts as a failure");
+    reader.bad("missing.imputations", "do not belong here: absent people count as failures");
   for (const Outcome& one : plan.primary) {
     if (one.impute_from.empty()) continue;
     const auto is_named = [&](const Outcome& other) { return other.name == one.impute_from; };
     const bool known = std::any_of(plan.primary.begin(), plan.primary.end(), is_named) ||
                        std::any_of(plan.secondary.begin(), plan.secondary.end(), is_named);
-    if (!known || one.impute_from == one.name) reader.bad("primary", "impute_from names no other outcome");
-    if (plan.imputations == 0) reader.bad("primary", "impute_from has no place: missing.imputations are 0");
+    if (!known || one.impute_from == one.name) reader.bad("primary", "impute_from must name another outcome");
+    if (plan.imputations == 0) reader.bad("primary", "impute_from does not belong here: missing.imputations is 0");
   }
 }
 
@@ -239,7 +240,7 @@ void read_plan(const Json& json, Plan& plan, std::vector<base::Problem>& wrong) 
     Visit read{visit.name("name"), visit.number("from_day", {}, -kFarDay, kFarDay),
                visit.number("to_day", {}, -kFarDay, kFarDay)};
     if (!(read.from_day < read.to_day)) visit.bad("to_day", "is not after from_day");
-    if (find_visit(plan, read.name) != nullptr) visit.bad("name", "is another visit's too");
+    if (find_visit(plan, read.name) != nullptr) visit.bad("name", "is also another visit's");
     plan.visits.push_back(std::move(read));
   }
   read_outcomes(reader, plan, wrong);

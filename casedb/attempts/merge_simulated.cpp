@@ -44,7 +44,7 @@ base::Result<void> check_person(const Arriving& one, const std::vector<Simulated
       return base::Error{"person_differs", "a simulated person of that library is here with other abilities"};
   if (one.truth.people_version != population::kPeopleVersion)
     return base::Error{"person_differs",
-                       "that library's people are of another model of people than this program's"};
+                       "that library's people come from another model of people than this program's"};
   return {};
 }
 

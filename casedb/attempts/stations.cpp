@@ -13,8 +13,7 @@ constexpr std::size_t kMostStationLetters = 40;
 constexpr std::string_view kStationEnds = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
 
 // The one of that name: rows come by station.
-template <typename OfStation>
-OfStation& last_called(std::vector<OfStation>& stations, const std::string& name) {
+StationTiming& last_called(std::vector<StationTiming>& stations, const std::string& name) {
   if (stations.empty() || stations.back().station != name) stations.emplace_back().station = name;
   return stations.back();
 }
@@ -55,9 +54,10 @@ std::vector<StationUse> list_station_use(Library& library, const std::vector<std
   std::vector<StationUse> stations;
   Statement sums = question(database, "station_use");
   for (sums.bind("people", ids); sums.step();) {
-    StationUse& one = last_called(stations, sums.text("station"));
+    StationUse& one = stations.emplace_back();
+    one.station = sums.text("station");
+    one.simulated = sums.integer("simulated") != 0;
     one.attempts = static_cast<std::size_t>(sums.integer("attempts"));
-    one.simulated = static_cast<std::size_t>(sums.integer("simulated"));
     one.people = static_cast<std::size_t>(sums.integer("people"));
     one.days = static_cast<std::size_t>(sums.integer("days"));
     one.duration_s = sums.real("duration_s");
@@ -66,7 +66,8 @@ std::vector<StationUse> list_station_use(Library& library, const std::vector<std
   Statement newest = question(database, "station_results");
   newest.bind("people", ids).bind("count", kStationResults);
   for (auto one = stations.begin(); newest.step();) {
-    while (one->station != newest.view("station")) ++one;  // both by station
+    const bool simulated = newest.integer("simulated") != 0;
+    while (one->station != newest.view("station") || one->simulated != simulated) ++one;  // both in the same order
     StationResult& result = one->results.emplace_back();
     result.duration_s = newest.real("duration_s");
     if (!newest.is_null("target_mm")) result.target_mm = newest.real("target_mm");

@@ -26,16 +26,17 @@ struct StationResult {
   std::optional<bool> hit;          // none: it came to no endpoint
 };
 
-// What some people did at a station.
+// What some people did at a station, or what was simulated there.
 struct StationUse {
   std::string station;  // empty: not recorded
-  std::size_t attempts = 0, simulated = 0, people = 0, days = 0;
+  bool simulated = false;
+  std::size_t attempts = 0, people = 0, days = 0;
   double duration_s = 0.0;               // of all attempts, without pauses
   std::int64_t last_us = 0;              // when the last one began
   std::vector<StationResult> results{};  // of the newest, at most kStationResults, newest first
 };
 inline constexpr int kStationResults = 200;
-// By name, with what was not recorded first.
+// By name, with what was not recorded first; of one name what people did first.
 std::vector<StationUse> list_station_use(Library& library, const std::vector<std::string>& people);
 
 // How well a station kept time in its newest attempts in real time, at most kStationResults of them.

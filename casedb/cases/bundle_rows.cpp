@@ -236,7 +236,7 @@ base::Result<std::unique_ptr<Sqlite>> RowsReader::read(std::span<const std::byte
     transaction.commit();
     build(*database, schema, newest_version(schema));
     if (!rows_are_sound(*database, case_id))
-      return base::Error{"bundle_values", "a value in a case of the bundle is none that this program stores"};
+      return base::Error{"bundle_values", "a case of the bundle has a value that this program never stores"};
   } catch (const Damaged&) {
     return damaged;
   } catch (const DatabaseFailure& failure) {

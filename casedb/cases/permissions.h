@@ -33,7 +33,7 @@ enum class Action {
   see_who_decided,  // by the log-in name; without it, a pseudonym
   work_on_case,     // in the case editor
   confirm_no_burned_in_text,
-  overrule_face,  // takes for none what the detector of faces found
+  overrule_face,  // says that what the detector of faces found is none
   submit_case,
   approve_case,  // "own": one's own submission
   return_case,

@@ -35,7 +35,7 @@ constexpr ActRow kActRows[] = {
     {Act::add_case, "add_case", "imports a case"},
     {Act::change_case, "change_case", "changes a draft"},
     {Act::confirm_no_burned_in_text, "confirm_no_burned_in_text", "confirms that no text is burned in"},
-    {Act::overrule_face, "overrule_face", "takes for none what looks like a face"},
+    {Act::overrule_face, "overrule_face", "says that what looks like a face is none"},
     {Act::submit_case, "submit_case", "submits a case"},
     {Act::return_case, "return_case", "returns a case"},
     {Act::approve_case, "approve_case", "approves a case"},

@@ -90,7 +90,8 @@ base::Result<int> add_curriculum_item(Library& library, const std::string& curri
     const bool twice = std::any_of(gates.begin(), gates.begin() + static_cast<std::ptrdiff_t>(i),
                                    [&](const assessment::Gate& other) { return other.after == gates[i].after; });
     if (gates[i].after >= index || twice || gates[i].reached < assessment::Proficiency::passed)
-      return base::Error{"bad_item", "a gate names an earlier item, once, that is to be passed or proficient"};
+      return base::Error{"bad_item",
+                         "a gate names an earlier item, once, and whether it must be passed or proficient"};
   }
   const int position = static_cast<int>(index) + 1;
   question(library.database(), "add_curriculum_item")

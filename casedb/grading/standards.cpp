@@ -151,7 +151,7 @@ base::Result<std::string> set_standard(Library& library, const std::string& case
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
   if (row->rule.criteria.empty())
-    return base::Error{"no_rule", "without a pass rule there is nothing to stand beside"};
+    return base::Error{"no_rule", "the case has no pass rule, so a standard would have nothing to stand beside"};
   const auto lesions = list_lesions(library, case_id);
   const auto target = std::find_if(lesions.begin(), lesions.end(), [&](const LesionRow& one) {
     return lesion_id.empty() || one.lesion_id == lesion_id;

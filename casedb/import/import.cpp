@@ -89,7 +89,7 @@ base::Result<Source> read_one_file(const std::filesystem::path& file, const std:
     return base::Error{"no_series", "there is no such series: the file holds one volume"};
   if (const auto format = format_of(start, extension)) return read_volume(file, *format, limit);
   if (!extension.empty()) return base::Error{"damaged", "the file does not begin as its name says"};
-  return base::Error{"unknown_format", "the file is none of DICOM, NIfTI, NRRD and MetaImage"};
+  return base::Error{"unknown_format", "the file is not DICOM, NIfTI, NRRD or MetaImage"};
 }
 
 // Of a folder; nothing where the source is one file.

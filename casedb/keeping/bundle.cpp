@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kBundlePiece = std::size_t{1} << 20, kSha256Digits = 64;
 
 const base::Error kDamaged{"damaged", "the bundle is damaged"};
-const base::Error kBadValues{"bundle_values", "a value in a case of the bundle is none that this program stores"};
+const base::Error kBadValues{"bundle_values", "a case of the bundle has a value that this program never stores"};
 const base::Error kTooLarge{"too_large", "the bundle would unpack to far more than a CT does"};
 
 // In a jail, where room and time are made for what is unpacked next.

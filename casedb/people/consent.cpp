@@ -26,6 +26,24 @@ bool is_plain_text(std::string_view text) {
   return true;
 }
 
+// To the newest text that `fits`, of those that are asked of this person; within a transaction of the caller's.
+template <typename Fits>
+base::Result<void> add_consent(Library& library, const std::string& person_id, Fits fits, const char* none_fits) {
+  if (const auto known = check_person(library, person_id); !known) return known.error();
+  const auto asked = list_consents(library, person_id);
+  const auto text =
+      std::find_if(asked.begin(), asked.end(), [&](const Consent& one) { return one.newest && fits(one); });
+  if (text == asked.end()) return base::Error{"no_text", none_fits};
+  {
+    Statement insert = question(library.database(), "add_consent");
+    insert.bind("person_id", person_id).bind("text_id", text->text_id).bind("given_us", now_us());
+    while (insert.step()) {
+    }
+  }
+  audit(library, Act::give_consent, {"consent_text", text->text_id});
+  return {};
+}
+
 }  // namespace
 
 base::Result<std::string> add_study(Library& library, const std::string& title) {
@@ -46,8 +64,9 @@ base::Result<std::string> add_study(Library& library, const std::string& title) 
 std::vector<Study> list_studies(Library& library) {
   std::vector<Study> studies;
   for (Statement rows = question(library.database(), "studies"); rows.step();)
-    studies.push_back({rows.text("study_id"), rows.text("title"), rows.small_integer("consenting"),
-                       rows.small_integer("simulated")});
+    studies.push_back({rows.text("study_id"),
+                       rows.text("title"),
+                       {rows.small_integer("people"), rows.integer("of_simulated") != 0}});
   return studies;
 }
 
@@ -136,25 +155,18 @@ std::vector<Consent> list_consents(Library& library, const std::string& person_i
   return consents;
 }
 
-base::Result<void> add_consent(Library& library, const std::string& person_id, const std::string& text_id) {
-  if (const auto known = check_person(library, person_id); !known) return known.error();
-  const auto asked = list_consents(library, person_id);
-  if (std::none_of(asked.begin(), asked.end(),
-                   [&](const Consent& one) { return one.text_id == text_id && one.newest; }))
-    return base::Error{"no_text", "there is no such text, or a newer one has replaced it"};
-  {
-    Statement insert = question(library.database(), "add_consent");
-    insert.bind("person_id", person_id).bind("text_id", text_id).bind("given_us", now_us());
-    while (insert.step()) {
-    }
-  }
-  audit(library, Act::give_consent, {"consent_text", text_id});
-  return {};
+base::Result<void> add_consent_to_study(Library& library, const std::string& person_id,
+                                        const std::string& study_id) {
+  return add_consent(
+      library, person_id, [&](const Consent& one) { return one.study_id == study_id; },
+      "the study asks for no consent: `seldinger consent text` adds what it asks");
 }
 
 base::Result<void> give_consent(Library& library, const std::string& person_id, const std::string& text_id) {
   Transaction transaction(library.database());
-  auto given = add_consent(library, person_id, text_id);
+  auto given = add_consent(
+      library, person_id, [&](const Consent& one) { return one.text_id == text_id; },
+      "there is no such text, or a newer one has replaced it");
   if (given) transaction.commit();
   return given;
 }

@@ -15,10 +15,18 @@
 
 namespace seldinger::casedb {
 
+// How many a study may be of: people who consent to it, or, where its plan says so, simulated ones, whom nobody
+// asks.
+struct StudyPeople {
+  int count = 0;
+  bool simulated = false;
+  int consenting() const noexcept { return simulated ? 0 : count; }
+  int simulated_people() const noexcept { return simulated ? count : 0; }
+};
+
 struct Study {
   std::string study_id, title;
-  int consenting = 0;  // how many people
-  int simulated = 0;   // whom its plan is of; nobody asks them
+  StudyPeople people{};
 };
 
 // A text as one person meets it.
@@ -52,8 +60,10 @@ base::Result<int> add_consent_text(Library& library, const std::optional<std::st
 std::vector<Consent> list_consents(Library& library, const std::string& person_id);
 // `no_text`: no such one is asked of this person now; `no_person`.
 base::Result<void> give_consent(Library& library, const std::string& person_id, const std::string& text_id);
-// The same, within a transaction of the caller's.
-base::Result<void> add_consent(Library& library, const std::string& person_id, const std::string& text_id);
+// To the newest text of a study, within a transaction of the caller's; `no_person`, `no_text`: the study asks for
+// none.
+base::Result<void> add_consent_to_study(Library& library, const std::string& person_id,
+                                        const std::string& study_id);
 // Of every version. Of a study that was never answered, but which consent to research with the library covers: from
 // now on that one does not cover it (kept as given and withdrawn at once). `no_text`, `not_given`.
 base::Result<void> withdraw_consent(Library& library, const std::string& person_id, const std::string& text_id);

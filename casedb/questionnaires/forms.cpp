@@ -63,12 +63,13 @@ base::Result<StoredForm> store_form(Library& library, const std::string& json) {
     for (StoredForm& one : *there) {
       if (one.form.language == form->language) {
         if (one.body == body) return std::move(one);
-        return base::Error{"form_taken", "that version is there with other words: what differs is another version"};
+        return base::Error{"form_taken",
+                           "that version is stored already, with other words: give yours another version"};
       }
       if (questionnaire::structure_of(one.form) != questionnaire::structure_of(*form))
         return base::Error{"form_differs",
-                           "items, scales or limits are not those of the version in its other "
-                           "languages: what asks otherwise is another version"};
+                           "items, scales or limits differ from those of this version in its other languages: give "
+                           "yours another version"};
     }
   } else if (there.error().code != "no_form") {
     return there.error();

@@ -55,19 +55,20 @@ base::Result<void> check_respondent(Library& library, const Round& round, const 
   if (round.groups.empty()
           ? !respondent.group.empty()
           : std::find(round.groups.begin(), round.groups.end(), respondent.group) == round.groups.end())
-    return base::Error{"bad_group", "the group is none of the round's"};
+    return base::Error{"bad_group", "the round has no such group"};
   if (respondent.code.empty()) return {};
   if (!is_respondent(respondent.code))
     return base::Error{"bad_respondent", "a respondent's code is up to 16 letters, digits and dashes"};
   if (has_respondent(library, round.round_id, respondent.code))
-    return base::Error{"respondent_taken", "under that code somebody has answered, or has begun to, in this round"};
+    return base::Error{"respondent_taken",
+                       "somebody has already answered, or begun to, under that code in this round"};
   return {};
 }
 
 base::Result<Round> open_round_of(Library& library, const std::string& code) {
   auto round = find_round(library, code);
   if (round && round->rated)
-    return base::Error{"rated_round", "under that code raters rate replays, each with a key of their own"};
+    return base::Error{"rated_round", "that code is for rating replays: each rater has a key"};
   if (round && round->at_desk)
     return base::Error{"desk_round", "this questionnaire is answered at the workstation, after an attempt"};
   if (round && !round->is_open())

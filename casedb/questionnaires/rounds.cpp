@@ -59,7 +59,7 @@ base::Result<Round> find_round(Library& library, std::string_view code) {
   const std::string capitals = code_from(code);
   for (Round& one : list_rounds(library))
     if (one.code == capitals || one.round_id == code) return std::move(one);
-  return base::Error{"no_round", "no questionnaire is answered under that code"};
+  return base::Error{"no_round", "no questionnaire has that code"};
 }
 
 base::Result<Round> add_round(Library& library, const NewRound& made) {

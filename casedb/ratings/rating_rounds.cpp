@@ -276,8 +276,7 @@ base::Result<SentRatings> list_ratings(Library& library, const std::string& code
   const Snapshot snapshot(library.database());
   const auto round = find_round(library, code);
   if (!round) return round.error();
-  if (!round->rated)
-    return base::Error{"not_rated", "under that code a questionnaire is answered, not replays rated"};
+  if (!round->rated) return base::Error{"not_rated", "that code is for a questionnaire, not for rating replays"};
   auto forms = find_forms(library, round->form_id, round->version);
   if (!forms) return forms.error();
   SentRatings all{*round, std::move(forms->front()), 0, 0, {}};

@@ -129,7 +129,7 @@ base::Result<SimulatedAnswers> rate(Library& library, const Round& round, std::u
     const auto attempt = find_attempt(library, one.attempt_id);
     if (!attempt) return attempt.error();
     const auto truth = attempt->person_id ? truths.find(*attempt->person_id) : truths.end();
-    if (truth == truths.end()) return nobody_simulated("a replay of the round is no simulated person's");
+    if (truth == truths.end()) return nobody_simulated("one of the round's replays is not a simulated person's");
     const population::Person person = simulated_person_of(library, truth->second);
     const population::Abilities ability = ability_in(library, person, *attempt);
     const population::Rater rater = population::drawn_rater(seed, std::stoull(one.rater.substr(1)));  // "R1"

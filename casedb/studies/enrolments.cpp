@@ -62,7 +62,7 @@ base::Result<void> may_take_part(Library& library, const StoredPlan& stored, con
   if (stored.plan.people == assessment::study::People::simulated && !is_simulated(library, person_id))
     return base::Error{"real_person", "the study is of simulated people, and this person is a real one"};
   if (!consenting_people(library, stored.study_id).contains(person_id))
-    return base::Error{"no_consent", "the person's consent to this study does not stand"};
+    return base::Error{"no_consent", "this person does not consent to the study"};
   for (const StudyEnrolment& one : list_study_enrolments(library, stored.study_id))
     if (one.person_id == person_id) return base::Error{"already_enrolled", "the person takes part already"};
   if (find_lock(library, stored.study_id))

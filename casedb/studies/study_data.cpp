@@ -32,6 +32,10 @@ bool is_of_plan(const study::Plan& plan, const std::set<std::string>& cases, con
   return cases.contains(row.case_id) && by_a_person(row) == (plan.people == study::People::real);
 }
 
+StudyPeople counted(const study::Plan& plan, const std::set<std::string>& people) {
+  return {static_cast<int>(people.size()), plan.people == study::People::simulated};
+}
+
 std::string cut_off_words(const AttemptRow& row) {
   const std::string_view code = cut_off_of(row);
   if (code == "interrupted") return "interrupted: the program was gone";
@@ -69,7 +73,7 @@ std::string digits_of_value(double value) {
 StudyData study_data(Library& library, const StoredPlan& stored) {
   const Snapshot one_state(library.database());
   StudyData data;
-  data.flow.consenting = people_asked(library, stored).size();
+  data.flow.people = counted(stored.plan, people_asked(library, stored));
   data.flow.ever_enrolled = count_ever_enrolled(library, stored.study_id);
   for (const study::PlannedGroup& group : stored.plan.groups) data.flow.groups.push_back({group.name, 0, 0, 0, 0});
   const std::set<std::string> cases = cases_of(stored.plan), metrics = metrics_of(stored.plan);
@@ -133,8 +137,9 @@ BlindedCounts blinded_counts(Library& library, const StoredPlan& stored) {
   const Snapshot one_state(library.database());
   const std::set<std::string> cases = cases_of(stored.plan);
   BlindedCounts counts;
-  for (const std::string& person_id : people_asked(library, stored)) {
-    ++counts.consenting;
+  const std::set<std::string> people = people_asked(library, stored);
+  counts.people = counted(stored.plan, people);
+  for (const std::string& person_id : people) {
     const auto rows = list_bare_attempts_of(library, person_id);
     const auto attempts = static_cast<std::size_t>(std::count_if(
         rows.begin(), rows.end(), [&](const AttemptRow& row) { return is_of_plan(stored.plan, cases, row); }));

@@ -9,6 +9,7 @@
 
 #include "assessment/study/analysis.h"
 #include "casedb/database/library.h"
+#include "casedb/people/consent.h"
 #include "casedb/studies/enrolments.h"
 #include "casedb/studies/plans.h"
 
@@ -19,7 +20,7 @@ struct GroupFlow {
   std::size_t allocated = 0, withdrew = 0, attempted = 0, analysed = 0;
 };
 struct ParticipantFlow {
-  std::size_t consenting = 0;  // now, enrolled or not
+  StudyPeople people{};  // now, enrolled or not
   std::size_t ever_enrolled = 0;
   std::size_t unknown = 0;        // enrolled, and erased since
   std::vector<GroupFlow> groups;  // in the plan's order
@@ -44,10 +45,9 @@ std::size_t people_with_outcome(const assessment::study::StudyResult& result);
 // Of the analysis: fills in how many of each group were analysed at the first primary outcome.
 void add_analysed(const assessment::study::StudyResult& result, ParticipantFlow& flow);
 
-// What may be told before the freeze: counts of all together, of people who consent, whatever group they will be
-// in.
+// What may be told before the freeze: counts of all together, whatever group they will be in.
 struct BlindedCounts {
-  std::size_t consenting = 0;
+  StudyPeople people{};
   std::size_t with_attempts = 0;  // at the cases of the plan, of the plan's kind
   std::size_t attempts = 0;
 };

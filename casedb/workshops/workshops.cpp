@@ -52,13 +52,6 @@ std::uint64_t seed_of(const Workshop& workshop, const std::string& group) {
   return static_cast<std::uint64_t>(workshop.seed) + static_cast<std::uint64_t>(place);
 }
 
-// The newest text that the study asks.
-base::Result<std::string> text_of_study(Library& library, const Workshop& workshop, const std::string& person_id) {
-  for (const Consent& one : list_consents(library, person_id))
-    if (one.newest && one.study_id == workshop.study_id) return one.text_id;
-  return base::Error{"no_text", "the study asks for no consent: `seldinger consent text` adds what it asks"};
-}
-
 }  // namespace
 
 std::optional<std::size_t> Participant::next() const {
@@ -162,14 +155,12 @@ base::Result<Participant> admit_to_workshop(Library& library, const Workshop& wo
   if (!now->is_open()) return base::Error{"workshop_closed", "the workshop is closed: nobody comes any more"};
   if (now->groups.empty() ? !group.empty()
                           : std::find(now->groups.begin(), now->groups.end(), group) == now->groups.end())
-    return base::Error{"bad_group", "the group is none of the workshop's"};
+    return base::Error{"bad_group", "the workshop has no such group"};
   if (consents_now) {
-    const auto text_id = text_of_study(library, *now, person_id);
-    if (!text_id) return text_id.error();
-    if (const auto given = add_consent(library, person_id, *text_id); !given) return given.error();
+    if (const auto given = add_consent_to_study(library, person_id, now->study_id); !given) return given.error();
+  } else if (!consenting_people(library, now->study_id).contains(person_id)) {
+    return base::Error{"no_consent", "this person does not consent to the study"};
   }
-  if (!consenting_people(library, now->study_id).contains(person_id))
-    return base::Error{"no_consent", "nobody takes part whose consent to the study does not stand"};
   if (is_of_simulated_people(library, now->study_id))  // planned since it was opened
     return base::Error{"real_person", "the study is of simulated people, and this person is a real one"};
   const auto came = [&]() -> std::optional<Participant> {
@@ -198,7 +189,8 @@ base::Result<void> tick_in_workshop(Library& library, const Workshop& workshop, 
     return base::Error{"no_participant", "nobody has that number"};
   const auto found = std::find_if(workshop.stations.begin(), workshop.stations.end(),
                                   [&](const WorkshopStation& one) { return one.title == station && !one.case_id; });
-  if (found == workshop.stations.end()) return base::Error{"no_station", "no station without a case is called so"};
+  if (found == workshop.stations.end())
+    return base::Error{"no_station", "there is no station of that name without a case"};
   question(library.database(), "add_workshop_tick")
       .bind("workshop_id", workshop.workshop_id)
       .bind("number", std::int64_t{number})

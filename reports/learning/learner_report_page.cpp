@@ -60,7 +60,9 @@ std::string learner_report_page(const LearnerReport& report) {
   if (report.truth) html.add(truth_section(*report.truth));
   for (const LearnerItem& one : report.items) html.add(item_section(one));
   if (!report.items.empty())
-    html.raw("<section>\n<h2>What passing one case shows</h2>\n<p>")
+    html.raw("<section>\n<h2>")
+        .text(kWhatPassingShows)
+        .raw("</h2>\n<p>")
         .text(dependability_text(report.dependability, report.whose))
         .raw("</p>\n</section>\n");
   return learning_page(report.learner + " – learning", html);

@@ -190,12 +190,12 @@ void add_proficiency(Html& html, LearnedCourse& course) {
   html.raw(" and ").text(share_text(*further(answer, "share_high"))).raw(" (95 %). The rule: proficient from ");
   html.text(number_text(rule.sure, 1)).raw(" on, over the last ").text(std::to_string(rule.last));
   html.raw(" graded attempts.");
-  if (course.x.size() < 2) {  // two running are yet to be made
+  if (course.x.size() < 2) {  // two in a row are yet to be made
     html.raw("</p>\n");
     return;
   }
   html.raw(
-      " The curriculum’s own rule, two passes running, is weaker: somebody who passes half of the time meets it "
+      " The curriculum’s own rule, two passes in a row, is weaker: somebody who passes half of the time meets it "
       "within ");
   html.text(std::to_string(course.x.size())).raw(" attempts with a probability of ");
   html.text(number_text(*further(answer, "two_running_by_half"), 2)).raw(".</p>\n");

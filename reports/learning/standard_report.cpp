@@ -103,7 +103,9 @@ std::string standard_report_page(const StandardReport& report) {
         "<p class=\"note\">The filled mark is the cut that holds. Methods that disagree by more than their "
         "intervals answer different questions: which one counts is a decision, and whoever makes it signs for "
         "it.</p>\n");
-  html.raw("<h2>What passing one case shows</h2>\n<p>")
+  html.raw("<h2>")
+      .text(kWhatPassingShows)
+      .raw("</h2>\n<p>")
       .text(dependability_text(report.dependability, casedb::Learners::people))
       .raw("</p>\n");
   return learning_page(report.title + " – standard", html);

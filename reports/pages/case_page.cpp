@@ -102,7 +102,7 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
            : parts.provisional       ? "provisional: no consultant standard has been set"
                                      : "consultants have set the standard");
   if (parts.dependability)
-    add_fact(html, "What it tells", dependability_text(*parts.dependability, casedb::Learners::people));
+    add_fact(html, kWhatPassingShows, dependability_text(*parts.dependability, casedb::Learners::people));
   end_table(html);
 
   add_table(html, "Decisions");

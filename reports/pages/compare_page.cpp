@@ -191,7 +191,9 @@ std::string compare_page(const casedb::Comparison& comparison, std::string_view 
         .raw(" with another target, guidance, approach or kind of needle.</p>\n");
   add_criteria(html, comparison);
   if (comparison.dependability)
-    html.raw("<p class=\"note\">What passing tells of people: ")
+    html.raw("<p class=\"note\">")
+        .text(kWhatPassingShows)
+        .raw(": ")
         .text(dependability_text(*comparison.dependability, casedb::Learners::people))
         .raw("</p>\n");
   add_debriefs(html, comparison);

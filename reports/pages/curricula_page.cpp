@@ -65,7 +65,7 @@ std::string curricula_page(const Visitor& visitor, std::span<const CurriculumVie
   Html html;
   html.raw("<h1>Curriculum</h1>\n");
   const bool learns = visitor.role == "trainee";  // of whom what is left stands with their progress
-  html.raw("<p class=\"sub\">Proficient is two passes running. What was reached is kept.");
+  html.raw("<p class=\"sub\">Proficient means two passes in a row. What was reached is kept.");
   if (learns) html.raw(" How far you are, and what is due: <a href=\"/progress\">progress</a>.");
   html.raw("</p>\n");
   if (curricula.empty())
@@ -74,7 +74,9 @@ std::string curricula_page(const Visitor& visitor, std::span<const CurriculumVie
         "curriculum add</code>, a director publishes it.</p></div>\n");
   for (const CurriculumView& one : curricula) add_curriculum(html, one, !learns);
   if (!curricula.empty())
-    html.raw("<p class=\"note\">What passing tells: ")
+    html.raw("<p class=\"note\">")
+        .text(kWhatPassingShows)
+        .raw(": ")
         .text(dependability_text(dependability, casedb::Learners::people))
         .raw("</p>\n");
   return page("Curriculum", visitor, html);

@@ -1,6 +1,7 @@
 #include "reports/studies/outcome_table.h"
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
+#include "reports/words/people_words.h"
 
 namespace seldinger::reports {
 
@@ -12,7 +13,7 @@ Html blinded(const ValidityReport& report) {
   html.raw(
       "<p>The plan is a <strong>draft</strong>: until it is frozen nobody who works on the study sees an outcome "
       "by group. All together:</p>\n<ul><li>");
-  html.text(std::to_string(report.blinded.consenting)).raw(" people consent</li><li>");
+  html.text(study_people_text(report.blinded.people)).raw("</li><li>");
   html.text(std::to_string(report.blinded.with_attempts))
       .raw(" of them have made attempts at the plan’s cases</li><li>");
   return html.text(std::to_string(report.blinded.attempts)).raw(" attempts</li></ul>\n");

@@ -1,6 +1,7 @@
 #include "reports/studies/numbers/baseline.h"
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
+#include "reports/words/people_words.h"
 
 namespace seldinger::reports {
 namespace {
@@ -42,13 +43,13 @@ Html flow_section(const ValidityReport& report) {
   if (!report.plan.frozen()) return html.raw("<p>Nobody is enrolled until the plan is frozen.</p>\n</section>\n");
   const casedb::ParticipantFlow& flow = report.flow;
   html.raw("<div class=\"flow\">\n");
-  add_box(html, "consent now", flow.consenting);
+  add_box(html, study_people_words(flow.people), static_cast<std::size_t>(flow.people.count));
   add_box(html, "enrolled", flow.ever_enrolled);
   html.raw("<div class=\"groups\">\n");
   for (const casedb::GroupFlow& group : flow.groups) {
     html.raw("<div class=\"group\"><h3>").text(group.name).raw("</h3>\n");
-    add_box(html, report.plan.plan.randomised ? "allocated" : "in the group by their answers", group.allocated);
-    add_box(html, "withdrew consent since", group.withdrew);
+    add_box(html, report.plan.plan.randomised ? "allocated" : "in the group by their facts", group.allocated);
+    if (!flow.people.simulated) add_box(html, "withdrew consent since", group.withdrew);
     add_box(html, "made an attempt at the plan’s cases", group.attempted);
     add_box(html, "analysed at the first primary outcome", group.analysed);
     html.raw("</div>\n");

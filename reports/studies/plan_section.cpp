@@ -1,6 +1,7 @@
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/people_words.h"
 
 namespace seldinger::reports {
 namespace {
@@ -38,8 +39,7 @@ Html plan_section(const ValidityReport& report) {
   const study::Plan& plan = report.plan.plan;
   Html html;
   html.raw("<section id=\"plan\">\n<h2>9 The plan</h2>\n<table class=\"facts\"><tbody>\n");
-  add_plan_row(html, "Whose attempts",
-               plan.people == study::People::real ? "of people" : "of simulated operators in people’s names");
+  add_plan_row(html, "Whose attempts", whose_attempts_words(plan.people));
   for (const study::PlannedGroup& group : plan.groups)
     add_plan_row(html, plan.randomised ? "Arm" : "Group", groups_words(group, plan.randomised));
   if (plan.randomised) {

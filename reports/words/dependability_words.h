@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "assessment/statistics/answer.h"
 #include "casedb/grading/learning.h"
 
 namespace seldinger::reports {
+
+// What stands before the words of `dependability_text`, on pages and in commands.
+inline constexpr std::string_view kWhatPassingShows = "What passing one case shows";
 
 // Whether so few people made it up that it is not told.
 bool withheld(const assessment::statistics::Answer& dependability, casedb::Learners whose);

@@ -92,9 +92,9 @@ std::string score_text(const assessment::Score& score) {
 }
 
 std::string proficiency_text(int missing) {
-  if (missing == 0) return "You are proficient here: two passes running.";
+  if (missing == 0) return "You are proficient here: two passes in a row.";
   return missing == 1 ? "One more pass, at the next attempt, and you are proficient here."
-                      : "Two passes running make you proficient here.";
+                      : "Two passes in a row make you proficient here.";
 }
 
 std::string experts_text(const assessment::ExpertSet& set) {

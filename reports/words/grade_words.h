@@ -20,7 +20,7 @@ struct RuleLine {
   bool critical = false;
 };
 std::vector<RuleLine> rule_lines(const assessment::PassRule& rule);
-// "One more pass, at the next attempt, and you are proficient here."; `missing`: passes running.
+// "One more pass, at the next attempt, and you are proficient here."; `missing`: passes in a row.
 std::string proficiency_text(int missing);
 std::string experts_text(const assessment::ExpertSet& set);  // who they are, how many, since when
 

@@ -23,6 +23,9 @@ inline constexpr std::array<Gauge, 10> kGauges = {{{16, 1.651, 1.194},
                                                    {24, 0.566, 0.311},
                                                    {25, 0.515, 0.260}}};
 
+// Of a coaxial set's introducer about a needle: one wall of its tube. About 18 gauge it is 17 gauge outside.
+inline constexpr double kIntroducerWallMm = 0.1;
+
 // Nothing for a number that is not in the table.
 constexpr std::optional<Gauge> gauge(int number) noexcept {
   for (const Gauge& one : kGauges)

@@ -216,7 +216,7 @@ TEST(CurriculaPage, TellsATraineeTheWayAndWhereTheyStandElsewhere) {
   EXPECT_THAT(mentors, HasSubstr("data-label=\"Attempts allowed\">no limit"));
   EXPECT_THAT(mentors, HasSubstr("data-label=\"Attempts allowed\">5"));
   EXPECT_THAT(curricula_page(kTrainee, {}, nobody), HasSubstr("no curriculum here yet"));
-  EXPECT_THAT(html, HasSubstr("What passing tells: Φ is not estimated"));
+  EXPECT_THAT(html, HasSubstr("What passing one case shows: Φ is not estimated"));
 }
 
 TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
@@ -234,10 +234,10 @@ TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
     group.of_criteria = {{3, 0.0, 0.0, 0.0, 0.0}, {3, 0.0, 1.0 / 3.0, 0.0, 1.0}};
     group.attempts.push_back({sample_attempt().row, failed_grade()});
   }
-  EXPECT_THAT(compare_page(comparison, ""), Not(HasSubstr("What passing tells")));
+  EXPECT_THAT(compare_page(comparison, ""), Not(HasSubstr("What passing")));
   comparison.dependability = assessment::statistics::not_estimable("g_theory", "too_few", 1);
   const std::string html = compare_page(comparison, ".x > .y { color: red }");
-  EXPECT_THAT(html, HasSubstr("What passing tells of people: Φ is not estimated"));
+  EXPECT_THAT(html, HasSubstr("What passing one case shows: Φ is not estimated"));
   EXPECT_THAT(html, HasSubstr(".x > .y { color: red }"));
   EXPECT_THAT(html, HasSubstr("Person 3f20ab"));
   EXPECT_THAT(html, HasSubstr("Simulated novice"));

@@ -159,10 +159,10 @@ class FakeQuestions final : public Questions {
     return erased;
   }
   base::Result<RoundForms> find_round(const std::string&) override {
-    return base::Error{"no_round", "no questionnaire is answered under that code"};
+    return base::Error{"no_round", "no questionnaire has that code"};
   }
   base::Result<std::string> begin_response(const std::string&, const casedb::Respondent&) override {
-    return base::Error{"no_round", "no questionnaire is answered under that code"};
+    return base::Error{"no_round", "no questionnaire has that code"};
   }
   base::Result<casedb::Draft> find_draft(const std::string&) override {
     return base::Error{"no_draft", "there are no answers that were begun here"};
@@ -372,7 +372,7 @@ inline void fill(FakeQuestions& questions) {
     view.curriculum.title = "A " + casedb::name_of(state) + " curriculum";
     view.curriculum.state = state;
   }
-  questions.studies.emplace_back().study = {kStudy, "Needles in phantoms", 3};
+  questions.studies.emplace_back().study = {kStudy, "Needles in phantoms", {3, false}};
   questions.grade.experts.attempt_ids = {kMissingAttempt};
   questions.grade.experts.id = "C-1";
   questions.attempts = {attempt_row(kOwnAttempt, "person-of-trainee"),

@@ -337,8 +337,8 @@ TEST(OpenServer, RefusesOtherHosts) {
   EXPECT_EQ(opened.error().code, "not_loopback");
 }
 
-// What passing tells stands on the page of each case that can be passed, and is renewed when somebody stores
-// something.
+// What passing one case shows stands on the page of each case that can be passed, and is renewed when somebody
+// stores something.
 TEST(LibraryQuestions, TellWhatPassingACaseTells) {
   auto library = fresh_library();
   const std::string plain = add_small_case(library).first, graded = add_small_case(library).first;

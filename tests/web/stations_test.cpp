@@ -30,6 +30,10 @@ TEST(Stations, AreAskedForTheOwnProgrammesAlone) {
   use.results = {{30.0, 2.0, true}, {61.0, 8.25, false}, {10.0, std::nullopt, std::nullopt}};
   FakeBrowser browser(*fake.site);
   browser.log_in_as(Role::director);
+  EXPECT_THAT(browser.get("/stations").body, Not(HasSubstr("simulated"))) << "where there is nothing simulated";
+  casedb::StationUse simulated = use;
+  simulated.simulated = true;
+  fake.questions.station_use.push_back(std::move(simulated));
   const std::string page = browser.get("/stations").body;
   EXPECT_THAT(fake.questions.stations_asked_for, ElementsAre("person-of-other-zzz999"));
   EXPECT_THAT(page, HasSubstr("Lab &lt;1&gt;"));
@@ -41,6 +45,11 @@ TEST(Stations, AreAskedForTheOwnProgrammesAlone) {
   const json told = json::parse(browser.get("/stations.json").body)["stations"][0];
   EXPECT_EQ(told["station"], "Lab <1>");
   EXPECT_EQ(told["duration_s"], 5400.0);
+  EXPECT_EQ(told["simulated"], false);
+  EXPECT_EQ(json::parse(browser.get("/stations.json").body)["stations"][1]["simulated"], true);
+  EXPECT_THAT(page, HasSubstr("<bdi>Lab &lt;1&gt;</bdi> <span class=\"mark\">simulated</span></th>"));
+  EXPECT_THAT(page, HasSubstr("<h3><bdi>Lab &lt;1&gt;, simulated</bdi></h3>"));
+  EXPECT_THAT(page, HasSubstr("simulated attempts are in rows of their own"));
   EXPECT_TRUE(told["newest"][2]["target_mm"].is_null());
 }
 

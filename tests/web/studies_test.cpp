@@ -1,6 +1,8 @@
 // Studies as who works on them reads them: people by pseudonym, no outcome, and a report only when asked.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/web/fake_site.h"
 
 namespace seldinger::web {
@@ -39,11 +41,12 @@ struct Studies : ::testing::Test {
 TEST_F(Studies, BeforeTheFreezeThereAreCountsOfAllTogether) {
   reports::StudyView& study = fake.questions.studies[0];
   study.plan = stored_plan(false);
-  study.blinded = {9, 8, 77};
+  study.blinded = {{9, false}, 8, 77};
   const std::string page = browser.get("/studies/" + kStudy).body;
   EXPECT_THAT(page, HasSubstr("Needles in phantoms"));
   EXPECT_THAT(page, HasSubstr("To tell &lt;novices&gt; from experts"));
   EXPECT_THAT(page, HasSubstr("<dd>77</dd>"));
+  EXPECT_THAT(page, HasSubstr("<dd>9 consent</dd>"));
   EXPECT_THAT(page, HasSubstr("is no look"));
   for (const char* later : {"By group", "Who is in", "Withdrew"}) EXPECT_THAT(page, Not(HasSubstr(later)));
 }
@@ -51,7 +54,7 @@ TEST_F(Studies, BeforeTheFreezeThereAreCountsOfAllTogether) {
 TEST_F(Studies, AFrozenOneTellsWhoIsInByPseudonymAndWhoHasLooked) {
   reports::StudyView& study = fake.questions.studies[0];
   study.plan = stored_plan(true);
-  study.flow.consenting = 9;
+  study.flow.people = {9, false};
   study.flow.ever_enrolled = 4;
   study.flow.groups = {{"novices", 3, 1, 2, 2}, {"experts", 1, 0, 1, 1}};
   study.enrolments = {{"person-of-other-zzz999", "P-77", "novices", "", 0, 1700000000000000, true}};
@@ -59,6 +62,7 @@ TEST_F(Studies, AFrozenOneTellsWhoIsInByPseudonymAndWhoHasLooked) {
   study.looks = {{1, 1700000000000000, "person", "R-1", "report <validity>", 7}};
   const std::string page = browser.get("/studies/" + kStudy).body;
   EXPECT_THAT(page, HasSubstr("Frozen on 2023-11-14"));
+  EXPECT_THAT(page, HasSubstr("9 consent now, 4 were enrolled"));
   EXPECT_THAT(page, HasSubstr("<th scope=\"row\">P-77</th>"));
   EXPECT_THAT(page, HasSubstr("data-label=\"Missed\">1<"));
   EXPECT_THAT(page, HasSubstr("data-label=\"Due or missed by\">P-77<"));
@@ -79,6 +83,25 @@ TEST_F(Studies, OneOfSimulatedPeopleSaysSoWhereverItIsNamed) {
       EXPECT_EQ(browser.get(path).body.find("<span class=\"mark\">simulated</span>") != std::string::npos,
                 people == assessment::study::People::simulated)
           << path;
+  }
+}
+
+// Nobody is asked whether a simulated person takes part.
+TEST_F(Studies, SimulatedPeopleAreNotCountedAsConsenting) {
+  reports::StudyView& study = fake.questions.studies[0];
+  study.study.people = study.blinded.people = study.flow.people = {12, true};
+  for (const bool frozen : {false, true}) {
+    study.plan = stored_plan(frozen);
+    study.plan->plan.people = assessment::study::People::simulated;
+    study.enrolments = {{"person-of-other-zzz999", "S-77", "novices", "", 0, 1700000000000000, true}};
+    const std::string page = browser.get("/studies/" + kStudy).body;
+    EXPECT_THAT(page, HasSubstr("12 simulated people"));
+    EXPECT_THAT(page, HasSubstr("of simulated people</dd>"));
+    EXPECT_THAT(page, Not(HasSubstr("consent"))) << frozen;
+    const auto told = nlohmann::json::parse(browser.get("/studies/" + kStudy + "/study.json").body);
+    EXPECT_EQ(told["simulated"], 12);
+    EXPECT_EQ(told[frozen ? "flow" : "so_far"]["simulated"], 12);
+    EXPECT_EQ(told[frozen ? "flow" : "so_far"]["consenting"], 0);
   }
 }
 

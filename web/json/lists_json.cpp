@@ -54,8 +54,8 @@ Json json_of(const casedb::ItemState& item) {
 Json json_of_head(const reports::StudyView& one) {
   return {{"study_id", one.study.study_id},
           {"title", one.study.title},
-          {"consenting", one.study.consenting},
-          {"simulated", one.study.simulated},
+          {"consenting", one.study.people.consenting()},
+          {"simulated", one.study.people.simulated_people()},
           {"enrolled", one.plan && one.plan->frozen() ? Json(one.enrolments.size()) : Json(nullptr)},
           {"plan_state", !one.plan ? Json(nullptr) : Json(one.plan->frozen() ? "frozen" : "draft")},
           {"looks_count", one.looks.size()}};
@@ -188,7 +188,8 @@ std::string study_json(const reports::StudyView& study) {
   if (json["plan"].is_discarded()) json["plan"] = nullptr;  // without it there is still how far it is
   json["plan_sha256"] = study.plan->body_hash;
   if (!study.plan->frozen()) {
-    json["so_far"] = {{"consenting", study.blinded.consenting},
+    json["so_far"] = {{"consenting", study.blinded.people.consenting()},
+                      {"simulated", study.blinded.people.simulated_people()},
                       {"with_attempts", study.blinded.with_attempts},
                       {"attempts", study.blinded.attempts}};
     return casedb::line(json);
@@ -208,7 +209,8 @@ std::string study_json(const reports::StudyView& study) {
     visits.push_back({{"pseudonym", one.pseudonym},
                       {"visit", one.visit},
                       {"state", base::name_of(casedb::kVisitStateNames, one.state)}});
-  json["flow"] = {{"consenting", study.flow.consenting},
+  json["flow"] = {{"consenting", study.flow.people.consenting()},
+                  {"simulated", study.flow.people.simulated_people()},
                   {"ever_enrolled", study.flow.ever_enrolled},
                   {"erased_since", study.flow.unknown},
                   {"groups", groups}};

@@ -29,8 +29,8 @@ std::string stations_json(std::span<const casedb::StationUse> stations) {
                          {"target_mm", result.target_mm ? Json(*result.target_mm) : Json(nullptr)},
                          {"hit", result.hit ? Json(*result.hit) : Json(nullptr)}});
     list.push_back({{"station", casedb::maybe(one.station)},
-                    {"attempts", one.attempts},
                     {"simulated", one.simulated},
+                    {"attempts", one.attempts},
                     {"people", one.people},
                     {"days", one.days},
                     {"duration_s", one.duration_s},

@@ -98,7 +98,7 @@ constexpr Route kCaseRoutes[] = {
     {"GET", "/curricula", Action::see_curriculum, true, kCurricula, "items, gates, and how far the trainee is",
      list_curricula},
     {"GET", "/curricula.json", Action::see_curriculum, false, kCurricula,
-     "the same: items, gates, how many attempts they allow, and what passing tells", list_curricula_json},
+     "the same: items, gates, how many attempts they allow, and what passing one case shows", list_curricula_json},
     {"GET", "/cases", Action::see_case, true, kCases, "the list, oldest first", list_cases},
     {"GET", "/cases.json", Action::see_case, false, kCases, "the same list", list_cases_json},
     {"GET", "/cases/{case_id}", Action::see_case, true, kCases,

@@ -20,7 +20,7 @@ bool sound(const ProficiencyRule& rule);
 
 // That the share is at least `share` after so many passes of so many attempts; passes ≤ attempts.
 double probability_of_share(std::size_t passes, std::size_t attempts, double share);
-// How probable two passes running are within so many attempts for who passes with probability p.
+// How probable two passes in a row are within so many attempts for who passes with probability p.
 double two_running(double p, std::size_t attempts);
 
 // Values are 1 (passed) and 0, in the order of x or of the rows. One person: the probability after each attempt.

@@ -150,7 +150,7 @@ FileLayout nrrd_layout(const std::filesystem::path& file, Problems& problems) {
   }
   const auto read = nrrd_fields_of(header);
   if (!read) {
-    problems.add("damaged", "the header holds a line that is none of the format's");
+    problems.add("damaged", "the header holds a line that the format does not have");
     return layout;
   }
   const Fields& fields = *read;

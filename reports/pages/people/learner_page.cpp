@@ -129,7 +129,7 @@ Html due_lines(const casedb::CurriculumRecord& record) {
     if (!item.progress.due) continue;
     html.raw("<p><strong>Next: ").text(std::to_string(i + 1)).raw(". ").name(item.title).raw("</strong>, ");
     html.text(std::to_string(item.progress.passes_missing));
-    html.text(item.progress.passes_missing == 1 ? " more pass" : " passes running");
+    html.text(item.progress.passes_missing == 1 ? " more pass" : " passes in a row");
     html.raw(" to be proficient. It is due because it is the first open item that is not proficient yet.</p>\n");
   }
   return html;
@@ -176,7 +176,7 @@ std::string learner_record_page(const Visitor& visitor, const LearnerView& learn
             "</p>\n<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Item by "
             "item\">\n<table>\n<caption>");
     html.raw(
-        "Proficient: two passes running, by the pass rule of the case’s version that was "
+        "Proficient: two passes in a row, by the pass rule of the case’s version that was "
         "attempted</caption>\n<thead><tr>"
         "<th scope=\"col\">Case</th><th scope=\"col\">Version now</th><th scope=\"col\">Attempts</th><th "
         "scope=\"col\">Passed (95 % interval)</th><th scope=\"col\">Proficient since</th><th scope=\"col\">Last "

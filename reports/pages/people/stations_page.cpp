@@ -43,6 +43,10 @@ std::string middle_text(const std::vector<double>& values, int digits, const cha
   return values.empty() ? "—" : number_text(middle_of(values), digits) + unit;
 }
 
+std::string use_text(const casedb::StationUse& one) {
+  return station_text(one.station) + (one.simulated ? ", simulated" : "");
+}
+
 void add_use_row(Html& html, const casedb::StationUse& one) {
   std::vector<double> durations_s, distances_mm;
   std::size_t hits = 0, with_hit = 0;  // as the cohorts count them: of those that came to an endpoint
@@ -53,10 +57,9 @@ void add_use_row(Html& html, const casedb::StationUse& one) {
     hits += result.hit.value_or(false) ? 1U : 0U;
   }
   html.raw("<tr><th scope=\"row\">").name(station_text(one.station));
+  if (one.simulated) html.raw(" <span class=\"mark\">simulated</span>");
   html.raw("</th><td class=\"number\" data-label=\"Hours\">").text(number_text(one.duration_s / kSecondsOfHour, 1));
   html.raw("</td><td class=\"number\" data-label=\"Attempts\">").text(std::to_string(one.attempts));
-  if (one.simulated > 0)
-    html.raw(" <span class=\"why\">").text(std::to_string(one.simulated) + " simulated").raw("</span>");
   html.raw("</td><td class=\"number\" data-label=\"People\">").text(std::to_string(one.people));
   html.raw("</td><td class=\"number\" data-label=\"Days used\">").text(std::to_string(one.days));
   html.raw("</td><td data-label=\"Last used\">").text(utc_text(one.last_us).substr(0, 10));
@@ -68,7 +71,7 @@ void add_use_row(Html& html, const casedb::StationUse& one) {
 
 void add_speed(Html& html, const casedb::StationUse& one) {
   SeriesChart chart;
-  chart.said = "Distance from endpoint to target centre against time at " + station_text(one.station) +
+  chart.said = "Distance from endpoint to target centre against time at " + use_text(one) +
                ": one point an attempt, hollow where it missed";
   chart.x_label = "Time of the attempt, s";
   chart.y_label = "Distance, mm";
@@ -79,7 +82,7 @@ void add_speed(Html& html, const casedb::StationUse& one) {
       chart.points.push_back({result.duration_s, *result.target_mm, result.hit.value_or(false)});
   std::sort(chart.points.begin(), chart.points.end(),
             [](const SeriesPoint& a, const SeriesPoint& b) { return a.x < b.x; });
-  html.raw("<h3>").name(station_text(one.station)).raw("</h3>\n");
+  html.raw("<h3>").name(use_text(one)).raw("</h3>\n");
   if (chart.points.empty())
     html.raw("<p>None of its attempts reached an end at which a distance is measured.</p>\n");
   else
@@ -176,6 +179,8 @@ std::string stations_page(const Visitor& visitor, std::span<const casedb::Statio
           "<div class=\"wide\">\n<table class=\"list\">\n<caption>Hours, attempts and people; medians and hits are "
           "for the newest attempts, at most ")
       .text(std::to_string(casedb::kStationResults));
+  if (std::any_of(stations.begin(), stations.end(), [](const casedb::StationUse& one) { return one.simulated; }))
+    html.raw("; simulated attempts are in rows of their own");
   html.raw(
       "</caption>\n<thead><tr><th scope=\"col\">Station</th><th scope=\"col\" class=\"number\">Hours</th><th "
       "scope=\"col\" "

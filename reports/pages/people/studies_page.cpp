@@ -23,9 +23,9 @@ std::string state_of_plan(const StudyView& view) {
 }
 
 std::string people_text(const StudyView& view) {
-  const std::string consenting = consent_text(view.study);
-  if (!view.plan || !view.plan->frozen()) return consenting;
-  return consenting + ", " + std::to_string(view.enrolments.size()) + " enrolled";
+  const std::string people = study_people_text(view.study.people);
+  if (!view.plan || !view.plan->frozen()) return people;
+  return people + ", " + std::to_string(view.enrolments.size()) + " enrolled";
 }
 
 bool is_simulated(const StudyView& view) {
@@ -71,8 +71,7 @@ void add_plan(Html& html, const casedb::StoredPlan& stored) {
   const study::Plan& plan = stored.plan;
   html.raw("<section>\n<h2>The plan</h2>\n<dl class=\"details\">\n");
   add_fact_row(html, "Intended use", plan.intended_use);
-  add_fact_row(html, "Whose attempts",
-               plan.people == study::People::real ? "of people" : "of simulated operators in people’s names");
+  add_fact_row(html, "Whose attempts", whose_attempts_words(plan.people));
   for (const study::PlannedGroup& group : plan.groups)
     add_fact_row(html, plan.randomised ? "Arm" : "Group", group.name);
   for (const study::Outcome& one : plan.primary) add_fact_row(html, "Primary outcome", outcome_line(one));
@@ -86,17 +85,15 @@ void add_blinded(Html& html, const casedb::BlindedCounts& counts) {
   html.raw(
       "<section>\n<h2>So far</h2>\n<p class=\"note\">Before the freeze there are only counts of all together: "
       "nobody is in a group, and no outcome is shown.</p>\n<dl class=\"outcome\">\n");
-  for (const auto& [name, count] : {std::pair{"Consent", counts.consenting},
-                                    {"Have made an attempt at the plan’s cases", counts.with_attempts},
-                                    {"Attempts at them", counts.attempts}}) {
-    html.raw("<div><dt>").text(name).raw("</dt><dd>").text(std::to_string(count)).raw("</dd></div>\n");
-  }
+  add_fact_row(html, "Who may be in", study_people_text(counts.people));
+  add_fact_row(html, "Have made an attempt at the plan’s cases", std::to_string(counts.with_attempts));
+  add_fact_row(html, "Attempts at them", std::to_string(counts.attempts));
   html.raw("</dl>\n</section>\n");
 }
 
 void add_flow(Html& html, const StudyView& view) {
-  html.raw("<section>\n<h2>Who came how far</h2>\n<p>").text(std::to_string(view.flow.consenting));
-  html.raw(" consent now, ").text(std::to_string(view.flow.ever_enrolled)).raw(" were enrolled.");
+  html.raw("<section>\n<h2>Who came how far</h2>\n<p>").text(study_people_text(view.flow.people));
+  html.raw(" now, ").text(std::to_string(view.flow.ever_enrolled)).raw(" were enrolled.");
   if (view.flow.unknown > 0)
     html.raw(" ").text(std::to_string(view.flow.unknown)).raw(" of them have been erased since.");
   html.raw(
@@ -152,12 +149,13 @@ void add_visits(Html& html, const StudyView& view) {
 void add_people_in(Html& html, const StudyView& view) {
   html.raw("<section>\n<h2>Who is in</h2>\n");
   if (view.enrolments.empty()) {
-    html.raw("<p>Nobody who consents is enrolled yet: <code>seldinger study enrol</code>.</p>\n</section>\n");
+    html.raw("<p>Nobody is enrolled yet: <code>seldinger study enrol</code>.</p>\n</section>\n");
     return;
   }
+  html.raw("<div class=\"wide\">\n<table class=\"list\">\n<caption>");
+  html.text(is_simulated(view) ? "Simulated people, by pseudonym" : "Only those who consent now, by pseudonym");
   html.raw(
-      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Only those who consent now, by "
-      "pseudonym</caption>\n<thead><tr><th scope=\"col\">Pseudonym</th><th scope=\"col\">Group</th><th "
+      "</caption>\n<thead><tr><th scope=\"col\">Pseudonym</th><th scope=\"col\">Group</th><th "
       "scope=\"col\">Stratum</th><th scope=\"col\">Enrolled</th></tr></thead>\n<tbody>\n");
   for (const casedb::StudyEnrolment& one : view.enrolments) {
     html.raw("<tr><th scope=\"row\">").text(one.pseudonym).raw("</th><td data-label=\"Group\">").text(one.group);
@@ -203,9 +201,8 @@ void add_what_next(Html& html, const Visitor& visitor, const StudyView& view) {
   if (!view.plan || view.plan->frozen()) {
     html.raw("<p class=\"note\">");
     if (view.plan) html.raw("The export shows outcomes by person: it is a look, too. ");
-    html.raw(
-        "It holds the attempts of those who consent, without names; their numbers have two significant "
-        "digits.</p>\n");
+    html.raw("It holds the attempts of ").text(is_simulated(view) ? "simulated people" : "those who consent");
+    html.raw(", without names; their numbers have two significant digits.</p>\n");
     add_job_form(html, visitor, view, "study_export", "Export the attempts");
   }
   html.raw(

@@ -173,7 +173,7 @@ base::Result<std::vector<Pair>> pairs_of(std::span<const TakenPoint> taken) {
     const auto named = [&](const TakenPoint& point) { return point.name == known.name; };
     const auto count = std::count_if(taken.begin(), taken.end(), named);
     const std::string name = std::string("point ") + known.name;
-    if (count > 1) findings.push_back({"bad_points", name + " stands twice"});
+    if (count > 1) findings.push_back({"bad_points", name + " is there twice"});
     if (count == 0 && known.required) findings.push_back({"bad_points", name + " is missing"});
     if (count != 1) continue;
     const glm::dvec3 device_mm = std::find_if(taken.begin(), taken.end(), named)->device_mm;

@@ -69,8 +69,6 @@ constexpr std::array<NeedleTipRow, cases::kNeedleTipNames.size()> kTips{{
 // doi 10.1115/1.4030374, abstract read).
 constexpr double kTornPart = 0.61 / (0.61 + 0.18);
 
-constexpr double kIntroducerWallsMm = 0.2;  // both: 1.473 mm about 1.270 mm
-
 NeedleTissue scaled(NeedleTissue tissue, double ratio) {
   tissue.slope_n_mm *= ratio;
   tissue.intercept_n *= ratio;
@@ -146,7 +144,7 @@ NeedleTissue felt_instead(const NeedleTissue& felt, const FeltNeedle& by, const 
 
 FeltNeedle introducer_for(const FeltNeedle& needle) {
   FeltNeedle introducer = needle;
-  introducer.gauge = {0, needle.gauge.outer_mm + kIntroducerWallsMm, 0.0};
+  introducer.gauge = {0, needle.gauge.outer_mm + 2.0 * cases::kIntroducerWallMm, 0.0};
   introducer.touch.tip = cases::NeedleTip::trocar;
   return introducer;
 }

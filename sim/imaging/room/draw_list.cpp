@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "sim/case/c_arm.h"
+#include "sim/case/gauge.h"
 #include "sim/imaging/room/scan_border.h"
 
 namespace seldinger::imaging {
@@ -26,9 +27,7 @@ constexpr double kWhealRadiusMm = 5.0, kWhealHeightMm = 1.5;  // a bleb in the s
 // A stab with a pointed blade, 3 to 5 mm long and gaping a little; nobody says which way it is: across the body, as
 // skin's lines run on a trunk (design).
 constexpr double kNickHalfLengthMm = 2.0, kNickHalfWidthMm = 0.5, kNickHeightMm = 0.3;
-// A coaxial set's: its tube is 0.1 mm thick (introducer_for in sim/haptics/needle/needle_tissue.cpp); its needle
-// goes some 30 mm beyond (design).
-constexpr double kIntroducerWallMm = 0.1, kBeyondIntroducerMm = 30.0;
+constexpr double kBeyondIntroducerMm = 30.0;  // a coaxial set's needle goes some 30 mm beyond its tube (design)
 constexpr double kIntroducerHubMm = 10.0, kIntroducerHubRadiusMm = 4.0;
 constexpr int kTurnedPieces = 12;  // of an arc whose console was turned
 
@@ -179,7 +178,7 @@ class Maker {
       item.least_half_px = 0.75;
       return item;
     };
-    RoomItem tube = turned(room_.shaft_radius_mm + kIntroducerWallMm, -length_mm, 0.0);
+    RoomItem tube = turned(room_.shaft_radius_mm + cases::kIntroducerWallMm, -length_mm, 0.0);
     tube.roughness = 0.28F;
     tube.metal = 0.9F;
     add(tube);

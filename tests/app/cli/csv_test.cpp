@@ -35,7 +35,7 @@ TEST(Csv, TellsEveryFault) {
   EXPECT_EQ(refused("x,y\n"), Faults{"there is no row"});
   EXPECT_EQ(refused(""), (Faults{"column x is missing", "column y is missing"}));
   EXPECT_EQ(refused("y,x,y\n1,2\n"),
-            (Faults{"column y stands twice", "row 1 has another number of cells than the header"}));
+            (Faults{"column y is there twice", "row 1 has another number of cells than the header"}));
   EXPECT_EQ(refused("x,y\n1,nan\ninf,2\n3\nz,1e999\n"),
             (Faults{"row 1, y is not a number", "row 2, x is not a number",
                     "row 3 has another number of cells than the header", "row 4, x is not a number",

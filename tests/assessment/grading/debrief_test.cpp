@@ -269,7 +269,7 @@ TEST(PhraseTest, EveryMetricHasASentenceForGoodAndForBad) {
   std::set<std::string_view> ids;
   for (const Phrase& phrase : phrases()) {
     EXPECT_NE(find_metric(std::string(phrase.id)), nullptr) << phrase.id;
-    EXPECT_TRUE(ids.insert(phrase.id).second) << phrase.id << " stands twice";
+    EXPECT_TRUE(ids.insert(phrase.id).second) << phrase.id << " is there twice";
   }
   for (const MetricInfo& info : registry()) {
     const Phrase* phrase = find_phrase(info.id);

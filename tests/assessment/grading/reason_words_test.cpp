@@ -19,7 +19,7 @@ namespace {
 TEST(ReasonWordsTest, EachReadsOnAfterNoValueAndNoneStandsTwice) {
   std::set<std::string_view> codes;
   for (const ReasonWords& one : all_reason_words()) {
-    EXPECT_TRUE(codes.insert(one.code).second) << one.code << " stands twice";
+    EXPECT_TRUE(codes.insert(one.code).second) << one.code << " is there twice";
     ASSERT_FALSE(one.words.empty()) << one.code;
     EXPECT_TRUE(std::islower(static_cast<unsigned char>(one.words.front()))) << one.words;
     EXPECT_NE(one.words.back(), '.') << one.words;

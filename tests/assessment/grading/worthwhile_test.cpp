@@ -23,7 +23,7 @@ TEST(WorthwhileTest, NoRowIsForNothing) {
   for (const MetricInfo& info : registry()) used.insert({info.id, info.unit});
   for (const Worthwhile& row : worthwhile_differences()) {
     EXPECT_TRUE(used.contains(row.what)) << row.what;
-    EXPECT_TRUE(seen.insert(row.what).second) << row.what << " stands twice";
+    EXPECT_TRUE(seen.insert(row.what).second) << row.what << " is there twice";
   }
 }
 

@@ -248,7 +248,7 @@ TEST(Analysis, MixedVersionsAreRefusedWithWords) {
   auto all = people(kFew, kMany);
   all[0].attempts[0].metrics[2].version += 1;
   const StudyResult result = analyse(sample_plan(), all);
-  EXPECT_THAT(result.primary[0].refused, HasSubstr("1 attempts have the metric in another version"));
+  EXPECT_THAT(result.primary[0].refused, HasSubstr("1 attempts have the metric in a version other"));
   EXPECT_FALSE(result.primary[0].p_adjusted);
   EXPECT_EQ(result.primary[0].answer.n, 0U);
   EXPECT_TRUE(result.primary[1].refused.empty()) << "each outcome for itself";

@@ -83,42 +83,43 @@ TEST(Plan, ItsCanonicalTextIsOneAndReadsBack) {
 
 TEST(Plan, EverythingThatIsWrongIsSaid) {
   const std::map<std::string, std::pair<std::string, std::string>> kWrong = {
-      {"primary[0].metric is no metric", {"tip_target_dist", "tip_dist"}},
+      {"primary[0].metric is not a metric", {"tip_target_dist", "tip_dist"}},
       {"primary[0].version is not the one", {"\"version\": " + version_of("tip_target_dist"), "\"version\": 999"}},
       {"primary[0].better contradicts", {"\"better\": \"lower\"", "\"better\": \"higher\""}},
       {"primary[0].failure_value is missing", {"\"brunner_munzel\"", "\"welch\""}},
-      {"primary[0].failure_value has no place",
+      {"primary[0].failure_value does not belong",
        {"\"smallest_worthwhile\": 2}", "\"smallest_worthwhile\": 2, \"failure_value\": 9}"}},
-      {"primary[0].compare[1] is no group", {"\"few\", \"many\"]", "\"few\", \"some\"]"}},
+      {"primary[0].compare[1] is not a group", {"\"few\", \"many\"]", "\"few\", \"some\"]"}},
       {"primary[0].compare names one group twice", {"\"few\", \"many\"]", "\"few\", \"few\"]"}},
-      {"primary[0].visit is no visit", {"\"visit\": \"v\"", "\"visit\": \"w\""}},
-      {"primary[0].test is none of: welch, brunner_munzel, mann_whitney", {"\"brunner_munzel\"", "\"student\""}},
-      {"primary[0].smallest_worthwhile is no number",
+      {"primary[0].visit is not a visit", {"\"visit\": \"v\"", "\"visit\": \"w\""}},
+      {"primary[0].test must be one of: welch, brunner_munzel, mann_whitney",
+       {"\"brunner_munzel\"", "\"student\""}},
+      {"primary[0].smallest_worthwhile must be a number",
        {"\"smallest_worthwhile\": 2}", "\"smallest_worthwhile\": 0}"}},
-      {"name two outcomes alike", {"\"no-go\"", "\"distance\""}},
+      {"give two outcomes the same name", {"\"no-go\"", "\"distance\""}},
       {"visits[0].to_day is not after", {"\"to_day\": 10.5", "\"to_day\": -10"}},
       {"four inferences", {"\"generalisation\"", "\"scoring\""}},
       {"argument[1].rebuttals are missing",
        {"\"generalisation\", \"claim\": \"c\", \"rebuttals\": [\"r\"]", "\"generalisation\", \"claim\": \"c\""}},
-      {"groups[1].name is another group's", {"\"name\": \"many\"", "\"name\": \"few\""}},
+      {"groups[1].name is also another group's", {"\"name\": \"many\"", "\"name\": \"few\""}},
       {"groups[0].name holds a colon", {"\"name\": \"few\"", "\"name\": \"f:w\""}},
-      {"groups[0].facts[0].comparison is none of", {"\"<=\"", "\"<\""}},
-      {"stopping.per_group is no number", {"\"per_group\": 3", "\"per_group\": 1"}},
-      {"missing.absent is none of: left_out, failure", {"\"left_out\"", "\"ignored\""}},
+      {"groups[0].facts[0].comparison must be one of", {"\"<=\"", "\"<\""}},
+      {"stopping.per_group must be a number", {"\"per_group\": 3", "\"per_group\": 1"}},
+      {"missing.absent must be one of: left_out, failure", {"\"left_out\"", "\"ignored\""}},
       {"missing.imputations are fewer than 10", {"\"why\": \"w\"", "\"why\": \"w\", \"imputations\": 9"}},
-      {"missing.imputations have no place: who is absent",
+      {"missing.imputations do not belong here: absent",
        {"\"left_out\", \"why\": \"w\"", "\"failure\", \"why\": \"w\", \"imputations\": 20"}},
-      {"impute_from has no place", {"\"welch\"", "\"welch\", \"impute_from\": \"distance\""}},
-      {"impute_from names no other", {"\"welch\"", "\"welch\", \"impute_from\": \"no-go\""}},
+      {"impute_from does not belong", {"\"welch\"", "\"welch\", \"impute_from\": \"distance\""}},
+      {"impute_from must name another", {"\"welch\"", "\"welch\", \"impute_from\": \"no-go\""}},
       {"holds 1 fields that the plan does not know", {"\"decision\": \"d\"", "\"decision\": \"d\", \"p\": 1"}},
-      {"decision is no text", {"\"decision\": \"d\"", "\"decision\": \"  \""}},
+      {"decision must be text", {"\"decision\": \"d\"", "\"decision\": \"  \""}},
       {"names a field twice", {"\"decision\": \"d\"", "\"decision\": \"d\", \"decision\": \"e\""}},
   };
   for (const auto& [said, change] : kWrong)
     EXPECT_THAT(problems_in(with(change.first, change.second)), HasSubstr(said));
   std::string of_order = with("\"welch\"", "\"mann_whitney\"");
   of_order.replace(of_order.find("\"why\": \"w\""), 10, "\"why\": \"w\", \"imputations\": 20");
-  EXPECT_THAT(problems_in(of_order), HasSubstr("missing.imputations have no place: no primary"));
+  EXPECT_THAT(problems_in(of_order), HasSubstr("missing.imputations do not belong here: no primary"));
   for (const char* text : {"", "[]", "7", "{", "{\"title\": \"\xff\"}", "null"})
     EXPECT_EQ(plan_from_json(text).error().code, "bad_study_plan") << text;
   EXPECT_GE(plan_from_json("{}").error().findings.size(), 8U) << "all at once";
@@ -164,17 +165,17 @@ TEST(Plan, ArmsNeedASequenceAndGroupsHaveNone) {
   EXPECT_THAT(problems_in(sample_plan_json("", R"("arms": [{"name": "few"}, {"name": "many"}])")),
               HasSubstr("randomisation is missing"));
   EXPECT_THAT(problems_in(sample_plan_json(R"(, "randomisation": {"strata": [], "block_sizes": [2]})")),
-              HasSubstr("has no place"));
+              HasSubstr("does not belong"));
   EXPECT_THAT(problems_in(sample_plan_json("", R"("arms": [{"name": "few"}, {"name": "many"}],
       "randomisation": {"strata": [], "block_sizes": [3]})")),
-              HasSubstr("block_sizes[0] is no multiple"));
+              HasSubstr("block_sizes[0] must be a multiple"));
 }
 
 TEST(Plan, AttemptsAreLeftOutByTheirRecordingAlone) {
   const std::string by_outcome =
       R"(, "exclusions": [{"metric": "tip_target_dist", "comparison": ">=", "value": 9, "why": "w"}])";
   EXPECT_THAT(problems_in(sample_plan_json(by_outcome)),
-              HasSubstr("exclusions[0].metric is no metric of the recording"));
+              HasSubstr("exclusions[0].metric is not a metric of the recording"));
 }
 
 TEST(Plan, AFactFitsAsANumberOrAsAWord) {

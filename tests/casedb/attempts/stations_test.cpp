@@ -29,7 +29,7 @@ class StationsTest : public testing::Test {
   std::string add(const std::string& person_id, const std::optional<std::string>& station, double duration_s,
                   std::optional<double> target_mm, std::int64_t started_us) {
     NewAttempt made = sample_attempt(case_id_, lesion_id_);
-    made.operator_name = kPersonOperator;
+    made.operator_name = operator_name_;
     made.person_id = person_id;
     made.duration_s = duration_s;
     made.started_us = started_us;
@@ -51,6 +51,7 @@ class StationsTest : public testing::Test {
   std::string bob_ = add_user(library_, "bob", Role::trainee, "correct horse battery").value();
   std::string other_ = add_user(library_, "other", Role::trainee, "correct horse battery").value();
   std::optional<cases::ServoRecord> servo_;
+  std::string operator_name_{kPersonOperator};
 };
 
 constexpr std::int64_t kDay = 86'400'000'000;
@@ -70,7 +71,7 @@ TEST_F(StationsTest, SumsWhatSomePeopleDidAtEach) {
   EXPECT_EQ(use[1].attempts, 3U) << "without somebody else's";
   EXPECT_EQ(use[1].people, 2U);
   EXPECT_EQ(use[1].days, 2U);
-  EXPECT_EQ(use[1].simulated, 0U);
+  for (const StationUse& one : use) EXPECT_FALSE(one.simulated);
   EXPECT_DOUBLE_EQ(use[1].duration_s, 100.0);
   EXPECT_EQ(use[1].last_us, 12 * kDay);
   ASSERT_EQ(use[1].results.size(), 3U);
@@ -81,6 +82,31 @@ TEST_F(StationsTest, SumsWhatSomePeopleDidAtEach) {
   EXPECT_EQ(use[1].results[2].hit, true) << "by the newest version of hit";
   EXPECT_EQ(list_station_use(library_, {other_}).size(), 1U);
   EXPECT_TRUE(list_station_use(library_, {}).empty());
+}
+
+TEST_F(StationsTest, WhatIsSimulatedIsCountedApart) {
+  add(ann_, "Lab 1", 30.0, 5.0, 10 * kDay);
+  operator_name_ = "novice";
+  for (int i = 0; i < kStationResults + 1; ++i) add(bob_, "Lab 1", 10.0, 1.0, 20 * kDay + i);
+  add(ann_, "Lab 1", 10.0, 1.0, 22 * kDay);
+  add(bob_, std::nullopt, 10.0, 1.0, 22 * kDay);
+  const auto use = list_station_use(library_, {ann_, bob_});
+  ASSERT_EQ(use.size(), 3U);
+  EXPECT_EQ(use[0].station, "");
+  EXPECT_TRUE(use[0].simulated) << "nobody sat where it was not recorded";
+  EXPECT_FALSE(use[1].simulated);
+  EXPECT_EQ(use[1].attempts, 1U);
+  EXPECT_EQ(use[1].people, 1U);
+  EXPECT_DOUBLE_EQ(use[1].duration_s, 30.0);
+  EXPECT_EQ(use[1].last_us, 10 * kDay);
+  ASSERT_EQ(use[1].results.size(), 1U) << "newer simulated ones push nobody's out";
+  EXPECT_EQ(use[1].results[0].target_mm, 5.0);
+  EXPECT_EQ(use[2].station, "Lab 1");
+  EXPECT_TRUE(use[2].simulated);
+  EXPECT_EQ(use[2].attempts, static_cast<std::size_t>(kStationResults) + 2);
+  EXPECT_EQ(use[2].people, 2U);
+  EXPECT_EQ(use[2].days, 2U);
+  EXPECT_EQ(use[2].results.size(), static_cast<std::size_t>(kStationResults));
 }
 
 TEST_F(StationsTest, TimingIsThatOfAllItsAttemptsInRealTime) {

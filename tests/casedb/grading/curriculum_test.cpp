@@ -143,7 +143,7 @@ TEST_F(CurriculumTest, TellsHowFarSomebodyIs) {
   EXPECT_FALSE(states(id)[1].progress.open);
   done(false);
   done(true);
-  EXPECT_EQ(states(id)[0].progress.reached, Proficiency::passed) << "two passes, not running";
+  EXPECT_EQ(states(id)[0].progress.reached, Proficiency::passed) << "two passes, not in a row";
   NewAttempt simulated = new_attempt(person_, 1.0, 20.0);
   simulated.operator_name = "expert";
   static_cast<void>(add_attempt(library_, simulated).value());

@@ -132,12 +132,19 @@ TEST_F(StudiesTest, SimulatedPeopleTakePartInStudiesOfSimulatedPeopleAlone) {
   EXPECT_EQ(code(enrol_in_study(library_, other, real)), "real_person");
   const StoredPlan plan = *find_plan(library_, other);
   EXPECT_EQ(people_asked(library_, plan), (std::set<std::string>{simulated}));
-  EXPECT_EQ(blinded_counts(library_, plan).consenting, 1U);
-  EXPECT_EQ(study_data(library_, plan).flow.consenting, 1U);
+  for (const StudyPeople& people : {blinded_counts(library_, plan).people, study_data(library_, plan).flow.people,
+                                    find_study(library_, other)->people}) {
+    EXPECT_EQ(people.simulated_people(), 1);
+    EXPECT_EQ(people.consenting(), 0)
+        << "who consents to research with the library is in no study of simulated people";
+  }
   EXPECT_TRUE(people_asked(library_, *find_plan(library_, study_id_)).contains(real));
-  EXPECT_EQ(find_study(library_, other)->consenting, 1) << "to research with the library";
-  EXPECT_EQ(find_study(library_, other)->simulated, 1);
-  EXPECT_EQ(find_study(library_, study_id_)->simulated, 0);
+  for (const StudyPeople& people : {blinded_counts(library_, *find_plan(library_, study_id_)).people,
+                                    study_data(library_, *find_plan(library_, study_id_)).flow.people,
+                                    find_study(library_, study_id_)->people}) {
+    EXPECT_EQ(people.simulated_people(), 0);
+    EXPECT_EQ(people.consenting(), 1);
+  }
   const auto enrolled = enrol_in_study(library_, other, simulated);
   ASSERT_TRUE(enrolled) << enrolled.error().text;
   EXPECT_EQ(enrolled->pseudonym.substr(0, 2), "S-");
@@ -263,7 +270,7 @@ TEST_F(StudiesTest, TheAnalysisIsOfWhoTakesPartAndStillConsents) {
   const auto [flow, result] = analysed();
   EXPECT_EQ(result.primary[0].answer.n, 6U);
   EXPECT_EQ(people_with_outcome(result), 6U);
-  EXPECT_EQ(flow.consenting, 7U);
+  EXPECT_EQ(flow.people.consenting(), 7);
   EXPECT_EQ(flow.groups[0].allocated, 3U);
   EXPECT_EQ(flow.groups[1].analysed, 3U);
   EXPECT_EQ(data_hash(result), data_hash(analysed().second)) << "the same data, the same hash";

@@ -70,6 +70,7 @@ TEST_F(WorkshopsTest, NobodyComesInWithoutConsent) {
   const std::string zoe = person("Zoe"), tim = person("Tim");
   EXPECT_EQ(code_of(admit_to_workshop(library_, day, zoe, "new", true)), "no_text") << "the study asks nothing";
   ask();
+  EXPECT_EQ(code_of(admit_to_workshop(library_, day, "nobody", "new", true)), "no_person");
   EXPECT_EQ(code_of(admit_to_workshop(library_, day, zoe, "new", false)), "no_consent");
   EXPECT_EQ(code_of(admit_to_workshop(library_, day, zoe, "other", true)), "bad_group");
   EXPECT_TRUE(consenting_people(library_, study_).empty()) << "of whom is refused nothing is kept";

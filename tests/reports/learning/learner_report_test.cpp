@@ -48,7 +48,7 @@ TEST(LearnerReport, TellsTheCourseWithItsRules) {
   EXPECT_EQ(page, learner_report_page(report_of("FFF-FPFPPPPPPPPPPP"))) << "the same report, the same bytes";
 }
 
-// Two passes running take two attempts; what one alone would show of them is nothing.
+// Two passes in a row take two attempts; what one alone would show of them is nothing.
 TEST(LearnerReport, TellsHowWeakTwoRunningAreFromTwoAttemptsOn) {
   EXPECT_THAT(learner_report_page(report_of("P")), Not(HasSubstr("attempts with a probability of")));
   EXPECT_THAT(learner_report_page(report_of("PF")), HasSubstr("within 2 attempts with a probability of 0.25"));

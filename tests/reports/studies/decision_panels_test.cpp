@@ -52,6 +52,25 @@ TEST(Conclusions, TellOfTheBandWhereItIsDrawn) {
   EXPECT_THAT(conclusions_section(report).str(), HasSubstr("no difference; the grey band"));
 }
 
+// Whom nobody asked does not consent.
+TEST(WhoMayBeIn, IsWhoConsentsOrASimulatedPerson) {
+  ValidityReport draft;
+  draft.blinded = {{1, false}, 1, 4};
+  EXPECT_THAT(conclusions_section(draft).str(), HasSubstr("<li>1 consents</li>"));
+  draft.blinded.people = {12, true};
+  EXPECT_THAT(conclusions_section(draft).str(), HasSubstr("<li>12 simulated people</li>"));
+  EXPECT_THAT(conclusions_section(draft).str(), Not(HasSubstr("consent")));
+  ValidityReport report = report_with(1.0);
+  report.flow.people = {12, false};
+  report.flow.groups = {{"novices", 10, 0, 10, 10}};
+  EXPECT_THAT(flow_section(report).str(), HasSubstr("<strong>12</strong> consent<"));
+  EXPECT_THAT(flow_section(report).str(), HasSubstr("withdrew consent since"));
+  EXPECT_THAT(flow_section(report).str(), HasSubstr("in the group by their facts"));
+  report.flow.people.simulated = true;
+  EXPECT_THAT(flow_section(report).str(), HasSubstr("<strong>12</strong> simulated people<"));
+  EXPECT_THAT(flow_section(report).str(), Not(HasSubstr("consent")));
+}
+
 TEST(InternalStructure, TellsAgreementAndError) {
   const std::string sound = internal_structure_panel(report_with(0.01)).str();
   EXPECT_THAT(sound, HasSubstr("<td>20</td><td>1.00"));

@@ -76,7 +76,7 @@ TEST(Proficiency, OnlyTheLastAttemptsCount) {
   EXPECT_EQ(number_of(late, "passes"), 10.0);
   ASSERT_EQ(late.rows.size(), 20U);
   EXPECT_EQ(number_of(late, "reached_at"), 20.0) << "nine of ten are not sure enough";
-  // Two passes running are the rule of old, and prove little.
+  // Two passes in a row are the rule of old, and prove little.
   EXPECT_LT(proficiency(passes("FPP"), ProficiencyRule()).estimate.value(), 0.5);
 }
 
@@ -116,7 +116,7 @@ TEST(Proficiency, TellsSeveralPersonsApart) {
   for (std::size_t i = 0; i < table.rows; ++i) table.subject.push_back(i < 10 ? "good" : "new");
   const Answer answer = proficiency(table, ProficiencyRule());
   EXPECT_EQ(number_of(answer, "persons_proficient"), 1.0);
-  EXPECT_EQ(number_of(answer, "good", "reached_at"), 6.0) << "six passes running, and not five";
+  EXPECT_EQ(number_of(answer, "good", "reached_at"), 6.0) << "six passes in a row, and not five";
   EXPECT_LT(number_of(answer, "new", "probability"), 0.01);
 }
 
