@@ -123,32 +123,12 @@ bool is_cut(const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces) 
   return (faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0;
 }
 
-// Where a cap meets another cut, decimation may pull one of its corners off the face: the triangle still begins
-// there and faces as the cap does.
-bool leans_on_face(const cases::Mesh& mesh, const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces,
-                   const glm::dmat4& voxel_from_lps, const glm::ivec3& size_voxels) {
-  constexpr double kNearVoxel = 2.0, kFacing = 0.9;  // cosine
-  std::array<glm::dvec3, 3> voxel;
-  for (int corner = 0; corner < 3; ++corner)
-    voxel[static_cast<std::size_t>(corner)] =
-        glm::dvec3(voxel_from_lps * glm::dvec4(glm::dvec3(mesh.vertices_lps_mm[triangle[corner]]), 1.0));
-  const glm::dvec3 normal = glm::cross(voxel[1] - voxel[0], voxel[2] - voxel[0]);
-  const unsigned on = static_cast<unsigned>(faces[triangle.x] | faces[triangle.y] | faces[triangle.z]);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(normal[axis]) > kFacing * glm::length(normal))) continue;
-    const auto near = [&](double face) {
-      return std::all_of(voxel.begin(), voxel.end(),
-                         [&](const glm::dvec3& p) { return std::abs(p[axis] - face) < kNearVoxel; });
-    };
-    if ((on & 1U << (2 * axis)) != 0 && near(-0.5)) return true;
-    if ((on & 2U << (2 * axis)) != 0 && near(size_voxels[axis] - 0.5)) return true;
-  }
-  return false;
-}
-
-// Whether a triangle faces what was not measured: the body goes on there.
-bool faces_padding(const cases::Mesh& mesh, const glm::uvec3& triangle, const volume::Volume& volume,
-                   const glm::dmat4& voxel_from_lps, const std::vector<std::uint8_t>& padding, double step_mm) {
+// Whether the body goes on where a triangle faces: it faces what was not measured, or leads out of the volume where
+// the body reaches its face. So are a cap's triangles of which decimation took a corner off the face, and those
+// along the edge between two cuts.
+bool faces_body(const cases::Mesh& mesh, const glm::uvec3& triangle, const volume::Volume& volume,
+                const glm::dmat4& voxel_from_lps, const SurfaceGrid& grid, int iso_hu,
+                const std::vector<std::uint8_t>& padding, double step_mm) {
   const glm::dvec3 a(mesh.vertices_lps_mm[triangle.x]), b(mesh.vertices_lps_mm[triangle.y]),
       c(mesh.vertices_lps_mm[triangle.z]), normal = glm::cross(b - a, c - a);
   const double length = glm::length(normal);
@@ -156,21 +136,25 @@ bool faces_padding(const cases::Mesh& mesh, const glm::uvec3& triangle, const vo
   for (int steps = 1; steps <= 3; ++steps) {
     const glm::dvec3 p = (a + b + c) / 3.0 + normal / length * (0.5 * steps * step_mm);
     const glm::dvec3 index(voxel_from_lps * glm::dvec4(p, 1.0));
-    if (!volume::inside(volume, index)) return false;
     const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::round(index)), glm::ivec3(0), volume.size_voxels - 1);
-    if (padding[volume.index(voxel.x, voxel.y, voxel.z)] != 0) return true;
+    if (!padding.empty() && padding[volume.index(voxel.x, voxel.y, voxel.z)] != 0) return true;
+    if (!volume::inside(volume, index)) return grid.hu_at(index) > static_cast<float>(iso_hu);
   }
   return false;
 }
 
-void mark_padded(const volume::Volume& volume, double target_spacing_mm, cases::Mesh& mesh) {
-  const std::vector<std::uint8_t> padding = volume::padding_of(volume);
-  if (padding.empty()) return;
+void mark_cuts(const volume::Volume& volume, const SurfaceGrid& grid, const SurfaceOptions& options,
+               cases::Mesh& mesh) {
+  const std::vector<std::uint8_t> faces = faces_of(mesh, volume), padding = volume::padding_of(volume);
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
   const double step_mm =
-      std::max({target_spacing_mm, volume.spacing_mm.x, volume.spacing_mm.y, volume.spacing_mm.z});
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (faces_padding(mesh, mesh.triangles[i], volume, voxel_from_lps, padding, step_mm)) mesh.cut[i] = 1;
+      std::max({options.target_spacing_mm, volume.spacing_mm.x, volume.spacing_mm.y, volume.spacing_mm.z});
+  mesh.cut.reserve(mesh.triangles.size());
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const bool cut = is_cut(triangle, faces) ||
+                     faces_body(mesh, triangle, volume, voxel_from_lps, grid, options.iso_hu, padding, step_mm);
+    mesh.cut.push_back(cut ? 1 : 0);
+  }
 }
 
 // Moves the vertices of the skin; caps are left out, so that their right-angled rim, an edge the body does not
@@ -241,14 +225,11 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
                                        double* taken_share) {
   const base::Error no_body{"no_body", "nothing in the volume is denser than air: there is no skin"};
   vtkObject::GlobalWarningDisplayOff();
-  cases::Mesh full;
-  {
-    const SurfaceGrid grid = surface_grid(volume, options.iso_hu, options.target_spacing_mm);
-    if (grid.hu.empty()) return no_body;
-    full = largest_piece(iso_surface(grid, options.iso_hu));
-    for (glm::vec3& p : full.vertices_lps_mm)
-      p = glm::vec3(glm::dvec3(volume.lps_from_voxel * glm::dvec4(grid.voxel_at(glm::dvec3(p)), 1.0)));
-  }
+  const SurfaceGrid grid = surface_grid(volume, options.iso_hu, options.target_spacing_mm);
+  if (grid.hu.empty()) return no_body;
+  cases::Mesh full = largest_piece(iso_surface(grid, options.iso_hu));
+  for (glm::vec3& p : full.vertices_lps_mm)
+    p = glm::vec3(glm::dvec3(volume.lps_from_voxel * glm::dvec4(grid.voxel_at(glm::dvec3(p)), 1.0)));
   if (full.triangles.empty()) return no_body;
   CHECK(is_closed(full));
 
@@ -264,15 +245,7 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
   CHECK(is_closed(mesh));
   if (signed_volume_mm3(mesh) < 0.0)
     for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
-  const std::vector<std::uint8_t> faces = faces_of(mesh, volume);  // decimation moves no vertex
-  mesh.cut.reserve(mesh.triangles.size());
-  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    const bool cut =
-        is_cut(triangle, faces) || leans_on_face(mesh, triangle, faces, voxel_from_lps, volume.size_voxels);
-    mesh.cut.push_back(cut ? 1 : 0);
-  }
-  mark_padded(volume, options.target_spacing_mm, mesh);
+  mark_cuts(volume, grid, options, mesh);
   return mesh;
 }
 

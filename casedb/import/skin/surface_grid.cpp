@@ -83,6 +83,21 @@ glm::dvec3 SurfaceGrid::voxel_at(const glm::dvec3& layer) const {
   return voxel;
 }
 
+float SurfaceGrid::hu_at(const glm::dvec3& voxel) const {
+  glm::ivec3 nearest(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double>& at = voxel_from_layer[static_cast<std::size_t>(axis)];
+    const auto first = at.begin() + 2, last = at.end() - 3;  // the layers, without what closes them
+    const auto above = std::lower_bound(first, last, voxel[axis]);
+    const bool below = above != first && voxel[axis] - *(above - 1) < *above - voxel[axis];
+    nearest[axis] = static_cast<int>(above - at.begin()) - (below ? 1 : 0);
+  }
+  return hu[(static_cast<std::size_t>(nearest.z) * static_cast<std::size_t>(size.y) +
+             static_cast<std::size_t>(nearest.y)) *
+                static_cast<std::size_t>(size.x) +
+            static_cast<std::size_t>(nearest.x)];
+}
+
 SurfaceGrid surface_grid(const volume::Volume& volume, int iso_hu, double target_spacing_mm) {
   SurfaceGrid grid;
   const std::vector<std::uint8_t> body = body_mask(volume, iso_hu);

@@ -18,6 +18,8 @@ struct SurfaceGrid {
 
   // A continuous index of the grid as index of the volume.
   glm::dvec3 voxel_at(const glm::dvec3& layer) const;
+  // Of the layers nearest to a continuous index of the volume; beyond its faces of those at them.
+  float hu_at(const glm::dvec3& voxel) const;
 };
 
 // Filled air inside the body becomes water, everything dense outside it air. Blocks of voxels are averaged up to

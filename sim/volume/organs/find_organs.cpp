@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
+#include <utility>
 
 #include "sim/base/check.h"
 #include "sim/volume/organs/chest.h"
@@ -31,7 +32,10 @@ Organs find_organs(const Volume& volume, const std::vector<TissueClass>& classes
   if (const std::vector<glm::dvec2> middle_mm = middle_of_back(grid); !middle_mm.empty()) {
     const Spine spine = find_spine(grid, middle_mm);
     const std::vector<Part> lungs = find_lungs(grid, middle_mm);
-    take(find_solid_organs(grid, middle_mm));
+    std::vector<Part> solid = find_solid_organs(grid, middle_mm);
+    std::optional<Part> gallbladder = find_gallbladder(grid, middle_mm, solid);
+    take(std::move(solid));
+    if (gallbladder) parts.push_back(std::move(*gallbladder));
     take(lungs);
     take(find_vertebrae(grid, spine));
     take(find_ribs(grid, spine, lungs));

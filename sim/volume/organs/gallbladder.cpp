@@ -12,7 +12,8 @@ namespace {
 // does. A gut touches the liver with less, and holds gas.
 constexpr double kLeastOnLiver = 0.15, kSureOnLiver = 0.3, kMostOnLiver = 0.75;
 constexpr double kMostOnGas = 0.02, kMostOnKidney = 0.1;
-constexpr int kSteps = 3;  // over its wall and a seam of fat, 9 mm
+constexpr double kBrighterHu = 25.0;  // than the liver: a kidney, also one that is not named, and its cysts' bed
+constexpr int kSteps = 3;             // over its wall and a seam of fat, 9 mm
 constexpr int kGasHu = -300;
 
 struct Around {  // shares of its surface
@@ -21,7 +22,7 @@ struct Around {  // shares of its surface
 
 enum class Beside : std::uint8_t { nothing, liver, kidney };
 
-Around around(const OrganGrid& grid, const Part& one, const std::vector<Beside>& beside) {
+Around around(const OrganGrid& grid, const Part& one, const std::vector<Beside>& beside, int liver_hu) {
   const Lattice lattice(grid.volume.size_voxels);
   Voxels own = one.voxels;
   std::sort(own.begin(), own.end());
@@ -33,9 +34,10 @@ Around around(const OrganGrid& grid, const Part& one, const std::vector<Beside>&
       if (!lattice.holds(q) || std::binary_search(own.begin(), own.end(), lattice.at(q))) continue;
       faces += 1.0;
       bool liver = false, kidney = false, gas = false;
-      for (int step = 0; step < kSteps && lattice.holds(q); ++step, q += way) {
-        liver |= beside[lattice.at(q)] == Beside::liver;
-        kidney |= beside[lattice.at(q)] == Beside::kidney;
+      for (int step = 0; step < kSteps && lattice.holds(q) && !liver; ++step, q += way) {
+        liver = beside[lattice.at(q)] == Beside::liver;
+        const bool bright = grid.soft[lattice.at(q)] != 0 && grid.level_hu[lattice.at(q)] > liver_hu + kBrighterHu;
+        kidney |= !liver && (bright || beside[lattice.at(q)] == Beside::kidney);
         gas |= grid.body[lattice.at(q)] != 0 && grid.volume.hu[lattice.at(q)] < kGasHu;
       }
       made.liver += liver ? 1.0 : 0.0, made.kidney += kidney ? 1.0 : 0.0, made.gas += gas ? 1.0 : 0.0;
@@ -60,7 +62,7 @@ std::optional<Part> gallbladder_among(const OrganGrid& grid, std::vector<Part> c
     for (const std::size_t at : kidney->voxels) beside[at] = Beside::kidney;
   std::vector<Part> likely;
   for (Part& one : candidates) {
-    const Around lies = around(grid, one, beside);
+    const Around lies = around(grid, one, beside, liver.found.level_hu);
     if (lies.liver < kLeastOnLiver || lies.liver > kMostOnLiver || lies.gas > kMostOnGas ||
         lies.kidney > kMostOnKidney)
       continue;

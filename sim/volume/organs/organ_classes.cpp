@@ -40,6 +40,12 @@ constexpr OrganClass class_of(FoundOrgan organ) {
   return {TissueClass::air};
 }
 
+TissueClass marked(FoundOrgan organ, TissueClass tissue) {
+  const OrganClass is = class_of(organ);
+  const bool changes = tissue == TissueClass::soft_tissue || (tissue == TissueClass::vessel && is.takes_vessel);
+  return changes && is.tissue != TissueClass::air ? is.tissue : tissue;
+}
+
 // That which makes up half or more of the eight voxels of the grid around a point, by how near they are.
 FoundOrgan organ_between(const Organs& organs, const glm::dvec3& in_grid) {
   const glm::dvec3 low = glm::floor(in_grid), part = in_grid - low;
@@ -66,12 +72,16 @@ void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueC
     for (int j = 0; j < volume.size_voxels.y; ++j) {
       const glm::dvec3 row(grid_from_voxel * glm::dvec4(0.0, j, k, 1.0));
       for (int i = 0; i < volume.size_voxels.x; ++i, ++at) {
-        const bool vessel = classes[at] == TissueClass::vessel;
-        if (!vessel && classes[at] != TissueClass::soft_tissue) continue;
-        const OrganClass is = class_of(organ_between(organs, row + static_cast<double>(i) * step));
-        if (is.tissue != TissueClass::air && (!vessel || is.takes_vessel)) classes[at] = is.tissue;
+        if (classes[at] == TissueClass::vessel || classes[at] == TissueClass::soft_tissue)
+          classes[at] = marked(organ_between(organs, row + static_cast<double>(i) * step), classes[at]);
       }
     }
+}
+
+bool may_lie_in(FoundOrgan organ, TissueClass tissue) {
+  const bool of_an_organ =
+      tissue == TissueClass::liver || tissue == TissueClass::spleen || tissue == TissueClass::kidney;
+  return of_an_organ ? tissue == class_of(organ).tissue : tissue == marked(organ, tissue);
 }
 
 MarkedClasses marked_classes(const Volume& volume, const LabelMap* labels) {

@@ -16,6 +16,10 @@ namespace seldinger::volume {
 // voxels (CHECK).
 void mark_organs(const Volume& volume, const Organs& organs, std::vector<TissueClass>& classes);
 
+// Whether a voxel that is stored as this class may lie in that organ: it is the organ's, or one that mark_organs
+// leaves as it is there. Soft tissue of a case stored before its organ was found is not.
+bool may_lie_in(FoundOrgan organ, TissueClass tissue);
+
 // What a new case stores, and a scene of a CT shows: a label with a known name decides (find_tissue.h); without
 // labels organs are looked for.
 struct MarkedClasses {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -23,20 +25,22 @@ struct OrganLaw {
   double wide_hu;      // to each side of its level: a kidney has cortex and medulla
   double reach_mm;     // a neck thinner than twice this parts it from others
   double compactness;  // least; of a ball 1
+  double vessel_mm;    // across: what is brighter, runs through it and is no wider does not part it
 };
-constexpr std::size_t kRightKidney = 0, kLeftKidney = 1, kLiver = 2;  // among the laws
+constexpr std::size_t kRightKidney = 0, kLeftKidney = 1;  // among the laws
 constexpr std::array<OrganLaw, 5> kLaws{{
-    {FoundOrgan::right_kidney, {-95.0, -45.0}, {-25.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45},
-    {FoundOrgan::left_kidney, {25.0, -45.0}, {95.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45},
-    {FoundOrgan::liver, {-130.0, -130.0}, {0.0, 0.0}, 500.0, 3000.0, 78, 260, 12.0, 12.0, 0.35},
-    {FoundOrgan::spleen, {70.0, -60.0}, {150.0, 60.0}, 60.0, 700.0, 78, 260, 12.0, 6.0, 0.4},
-    {FoundOrgan::bladder, {-35.0, -140.0}, {35.0, -15.0}, 40.0, 800.0, -10, 26, 10.0, 6.0, 0.5},
+    {FoundOrgan::right_kidney, {-95.0, -45.0}, {-25.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45, 0.0},
+    {FoundOrgan::left_kidney, {25.0, -45.0}, {95.0, 40.0}, 60.0, 350.0, 100, 260, 30.0, 6.0, 0.45, 0.0},
+    {FoundOrgan::liver, {-130.0, -130.0}, {0.0, 0.0}, 500.0, 3000.0, 78, 260, 12.0, 12.0, 0.35, 15.0},
+    {FoundOrgan::spleen, {70.0, -60.0}, {150.0, 60.0}, 60.0, 700.0, 78, 260, 12.0, 6.0, 0.4, 0.0},
+    {FoundOrgan::bladder, {-35.0, -140.0}, {35.0, -15.0}, 40.0, 800.0, -10, 26, 10.0, 6.0, 0.5, 0.0},
 }};
 // Of bile, which may be as thick as muscle; then it is not told from a gut.
 constexpr OrganLaw kGallbladder{
-    FoundOrgan::gallbladder, {-110.0, -150.0}, {10.0, -10.0}, 3.0, 90.0, -6, 26, 10.0, 3.0, 0.5};
+    FoundOrgan::gallbladder, {-110.0, -150.0}, {10.0, -10.0}, 3.0, 90.0, -6, 26, 10.0, 3.0, 0.5, 0.0};
 constexpr double kHardlyParted = 0.6;  // of its faces: what is joined to more is no organ of its own
 constexpr int kStepHu = 4;
+constexpr std::uint8_t kVessel = 2;  // among what is alike: it joins what it runs through, and is not named so
 
 class Finder {
  public:
@@ -70,11 +74,39 @@ class Finder {
     if (ml_of(static_cast<std::size_t>(last - first)) < law.least_ml / 2.0) return made;  // its edge is the rest
     Mask alike(grid_.soft.size(), 0);
     for (auto one = first; one != last; ++one) alike[one->second] = 1;
+    if (law.vessel_mm > 0.0) {
+      Voxels vessels;
+      for (auto one = last; one != by_level_.end(); ++one)
+        if (is_vessel_within(alike, one->second, law.vessel_mm)) vessels.push_back(one->second);
+      for (const std::size_t at : vessels) alike[at] = kVessel;
+    }
     for (const Voxels& cores : lattice_.pieces(lattice_.eroded(alike, law.reach_mm))) {
       if (ml_of(cores.size()) < 0.02 * law.least_ml || ml_of(cores.size()) > law.most_ml) continue;
       if (auto one = judged(law, level, alike, cores)) made.push_back(std::move(*one));
     }
     return made;
+  }
+
+  // In a third of all directions what is soft ends, both ways, in the organ, no farther than that apart.
+  bool is_vessel_within(const Mask& alike, std::size_t at, double widest_mm) const {
+    constexpr int kLeastWays = 4;  // of 13: those across a straight tube
+    const glm::ivec3 from = lattice_.place(at);
+    const auto steps_to_organ = [&](const glm::ivec3& way, int most) {
+      for (int step = 1; step <= most; ++step) {
+        const glm::ivec3 q = from + step * way;
+        if (!lattice_.holds(q) || grid_.soft[lattice_.at(q)] == 0) break;
+        if (alike[lattice_.at(q)] != 0) return step;
+      }
+      return 0;
+    };
+    int ways = 0;
+    for (int which = 14; which < 27; ++which) {
+      const glm::ivec3 way(which % 3 - 1, which / 3 % 3 - 1, which / 9 - 1);
+      const int most = static_cast<int>(widest_mm / (kOrganGridMm * glm::length(glm::dvec3(way)))),
+                one = steps_to_organ(way, most);
+      if (one != 0 && steps_to_organ(-way, most + 1 - one) != 0 && ++ways == kLeastWays) return true;
+    }
+    return false;
   }
 
   std::optional<Part> judged(const OrganLaw& law, int level, const Mask& alike, const Voxels& cores) const {
@@ -107,7 +139,7 @@ class Finder {
         const glm::ivec3 q = p + way, beyond = q + way;
         if (!lattice_.holds(q) || in[lattice_.at(q)] == 1) continue;
         ++faces;
-        joined += alike[lattice_.at(q)];
+        joined += alike[lattice_.at(q)] != 0 ? 1 : 0;
         if (in[lattice_.at(q)] != 0 || alike[lattice_.at(q)] != 0 || !lattice_.holds(beyond) ||
             in[lattice_.at(beyond)] == 1)
           continue;
@@ -125,6 +157,9 @@ class Finder {
           off_mm.y <= law.high_mm.y))
       return std::nullopt;
     if (law.organ == FoundOrgan::bladder && !between_hips(glm::ivec3(glm::round(centre)))) return std::nullopt;
+    made.voxels.erase(std::remove_if(made.voxels.begin(), made.voxels.end(),
+                                     [&](std::size_t at) { return alike[at] == kVessel; }),
+                      made.voxels.end());
     made.found.organ = law.organ;
     made.found.level_hu = level;
     made.found.ml = ml_of(made.voxels.size());
@@ -180,21 +215,24 @@ std::vector<Part> find_solid_organs(const OrganGrid& grid, const std::vector<glm
   if (!are_a_pair(found[kRightKidney], found[kLeftKidney]))
     for (const std::size_t which : {kRightKidney, kLeftKidney})
       if (found[which]) found[which]->found.confidence *= kDoubted;
-  const auto named = [&](std::size_t which) {
-    return found[which] && found[which]->found.confidence >= kOrganConfidence ? &*found[which] : nullptr;
-  };
-  std::optional<Part> gallbladder;
-  if (const Part* liver = named(kLiver)) {
-    std::vector<const Part*> kidneys;
-    for (const std::size_t which : {kRightKidney, kLeftKidney})
-      if (const Part* kidney = named(which)) kidneys.push_back(kidney);
-    gallbladder = gallbladder_among(grid, finder.all(kGallbladder), *liver, kidneys);
-  }
   std::vector<Part> made;
   for (auto& one : found)
     if (one) made.push_back(std::move(*one));
-  if (gallbladder) made.push_back(std::move(*gallbladder));
   return made;
+}
+
+std::optional<Part> find_gallbladder(const OrganGrid& grid, const std::vector<glm::dvec2>& middle_mm,
+                                     const std::vector<Part>& solid) {
+  const Part* liver = nullptr;
+  std::vector<const Part*> kidneys;
+  for (const Part& one : solid) {
+    if (one.found.confidence < kOrganConfidence) continue;
+    if (one.found.organ == FoundOrgan::liver) liver = &one;
+    if (one.found.organ == FoundOrgan::right_kidney || one.found.organ == FoundOrgan::left_kidney)
+      kidneys.push_back(&one);
+  }
+  if (liver == nullptr) return std::nullopt;
+  return gallbladder_among(grid, Finder(grid, middle_mm).all(kGallbladder), *liver, kidneys);
 }
 
 }  // namespace seldinger::volume

@@ -6,6 +6,9 @@
 
 #include "sim/volume/classes.h"
 #include "sim/volume/organs/find_organs.h"
+#include "sim/volume/organs/organ_grid.h"
+#include "sim/volume/organs/solid_organs.h"
+#include "sim/volume/organs/spine.h"
 #include "sim/volume/tissue/find_tissue.h"
 #include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
@@ -72,8 +75,8 @@ TEST_F(RealClasses, InTheContrastAbdomenNothingEnhancedIsBone) {
   EXPECT_LT(ml(TissueClass::bone), 700.0);
 }
 
-// Looked at slice by slice; the kidneys are cut by the field's end, the liver lies on the stomach's wall, and the
-// vena cava is not even in this noise.
+// Looked at slice by slice; the kidneys are cut by the field's end, the liver lies on the stomach's wall (what is
+// found of it is liver, and hardly not sure enough), and the vena cava is not even in this noise.
 TEST_F(RealClasses, OrgansAreNamedRightlyOrNotAtAll) {
   SELDINGER_NEEDS_SHARED_DATA();
   using volume::FoundOrgan;
@@ -91,19 +94,38 @@ TEST_F(RealClasses, OrgansAreNamedRightlyOrNotAtAll) {
     for (const FoundOrgan organ :
          {FoundOrgan::right_lung, FoundOrgan::left_lung, FoundOrgan::vertebrae, FoundOrgan::ribs})
       EXPECT_GT(ml_of(organ), 5.0) << name;
-    for (const FoundOrgan organ : {FoundOrgan::liver, FoundOrgan::gallbladder, FoundOrgan::right_kidney,
-                                   FoundOrgan::left_kidney, FoundOrgan::vena_cava})
+    for (const FoundOrgan organ :
+         {FoundOrgan::gallbladder, FoundOrgan::right_kidney, FoundOrgan::left_kidney, FoundOrgan::vena_cava})
       EXPECT_EQ(ml_of(organ), 0.0) << name;
     if (std::string(name) != "ct-abdomen-contrast-dicom") {
-      for (const FoundOrgan organ : {FoundOrgan::spleen, FoundOrgan::aorta}) EXPECT_EQ(ml_of(organ), 0.0) << name;
+      for (const FoundOrgan organ : {FoundOrgan::liver, FoundOrgan::spleen, FoundOrgan::aorta})
+        EXPECT_EQ(ml_of(organ), 0.0) << name;
       continue;
     }
     EXPECT_EQ(organ_at({89, 55, -98}), FoundOrgan::spleen);
     EXPECT_EQ(organ_at({-14, 25, -153}), FoundOrgan::aorta);
     EXPECT_NEAR(ml_of(FoundOrgan::spleen), 300.0, 45.0);
-    for (const glm::dvec3& p : {glm::dvec3{-107, 51, -153}, {52, 66, -153}, {-115, -5, -98}})
+    for (const glm::dvec3& p : {glm::dvec3{-107, 51, -153}, {52, 66, -153}})
       EXPECT_EQ(organ_at(p), FoundOrgan::none);
   }
+}
+
+// A gallbladder is asked for beside a liver that is named only, so here one is taken for sure. Its bed holds a
+// stent and gas, and no gallbladder; a cyst of the right kidney lies on the liver, at (-74, 59, -117).
+TEST_F(RealClasses, TheGallbladderIsNoCystOfAKidneyThatIsNotNamed) {
+  SELDINGER_NEEDS_SHARED_DATA();
+  take(shared_data("ct-abdomen-contrast-dicom"));
+  const volume::OrganGrid grid = volume::organ_grid(volume_, classes_);
+  const std::vector<glm::dvec2> middle_mm = volume::middle_of_back(grid);
+  std::vector<volume::Part> solid = volume::find_solid_organs(grid, middle_mm);
+  const auto liver = std::find_if(solid.begin(), solid.end(), [](const volume::Part& one) {
+    return one.found.organ == volume::FoundOrgan::liver;
+  });
+  ASSERT_NE(liver, solid.end());
+  EXPECT_NEAR(liver->found.ml, 1550.0, 150.0);
+  liver->found.confidence = 1.0;
+  const auto gallbladder = volume::find_gallbladder(grid, middle_mm, solid);
+  EXPECT_LT(gallbladder ? gallbladder->found.confidence : 0.0, volume::kOrganConfidence);
 }
 
 TEST_F(RealClasses, InThePlainAbdomenTheSpineIsBoneAndTheBladderFluid) {

@@ -79,6 +79,7 @@ TEST(FoundOrgans, OfACtWithoutLabelsAreTargetsSeenAndFelt) {
   const auto old = casedb::find_case(library, plain.case_id).value();
   ASSERT_TRUE(old.labels_sha256.empty()) << "to a loader it is a CT in which organs would be found";
   EXPECT_EQ(casedb::load_classes(library, old).value(), volume::tissue_classes(torso.volume));
+  EXPECT_FALSE(organ_of_target(library, old, spleen_mm)) << "it shows soft tissue there";
 }
 
 }  // namespace

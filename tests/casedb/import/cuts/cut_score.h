@@ -34,6 +34,6 @@ class WholePatient {
 };
 
 // A test's: none of what is called skin lies off the whole patient's, and no more than this share of that is lost.
-void expect_true_skin(const WholePatient& whole, const volume::Crop& crop, double most_lost_share = 0.01);
+CutScore expect_true_skin(const WholePatient& whole, const volume::Crop& crop, double most_lost_share = 0.01);
 
 }  // namespace seldinger::casedb

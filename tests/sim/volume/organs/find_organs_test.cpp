@@ -203,11 +203,13 @@ TEST(Organs, OfTheTorsoAreThoseOfItsLabels) {
 
 // What is named is what it is called; what cannot be told, as without contrast, is not named.
 TEST(Organs, AreNamedRightlyOrNotAtAll) {
-  const auto expect_right_of = [](const std::string& of, const Volume& volume, const LabelMap& truth) {
+  const auto expect_right_of = [](const std::string& of, const Volume& volume, const LabelMap& truth,
+                                  bool names_liver = false) {
     const Organs organs = find_organs(volume, tissue_classes(volume));
     const Agreement with = agreement(organs, volume, truth);
     tell(of, organs, with);
     expect_right(of, organs, with);
+    EXPECT_EQ(named(organs)[static_cast<std::size_t>(FoundOrgan::liver)], names_liver) << of;
   };
   for (const TorsoPhase phase : {TorsoPhase::none, TorsoPhase::arterial}) {
     const EnhancedTorso torso = enhanced_torso({.phase = phase, .spacing_mm = glm::ivec3(3)});
@@ -215,7 +217,7 @@ TEST(Organs, AreNamedRightlyOrNotAtAll) {
   }
   for (const auto& [body, name] : kBodyNames) {
     const Phantom made = make_phantom({.spacing_mm = glm::dvec3(3.0), .body = body});
-    expect_right_of(std::string(name), made.volume, made.labels);
+    expect_right_of(std::string(name), made.volume, made.labels, true);
   }
   for (const Region region : {Region::groin, Region::neck}) {
     const Phantom made = make_phantom({.spacing_mm = glm::dvec3(3.0), .region = region});
@@ -260,6 +262,23 @@ TEST(Organs, TheGallbladderIsNoCystAndNoGut) {
   EXPECT_FALSE(names_a_gallbladder(torso, false, {cyst})) << "liver lies all around it";
   EXPECT_FALSE(names_a_gallbladder(torso, false, {gut, gas})) << "it holds gas";
   EXPECT_FALSE(names_a_gallbladder(torso, true, {gut})) << "neither is told from the other";
+}
+
+// As classes are stored: of today's rules, or of before its organ was found.
+TEST(Organs, LieInVoxelsOfTheirClassAndInThoseThatStay) {
+  using enum FoundOrgan;
+  EXPECT_TRUE(may_lie_in(spleen, TissueClass::spleen));
+  EXPECT_TRUE(may_lie_in(left_kidney, TissueClass::fat)) << "of its sinus";
+  EXPECT_TRUE(may_lie_in(liver, TissueClass::vessel)) << "a vein of it";
+  EXPECT_TRUE(may_lie_in(liver, TissueClass::fluid)) << "a cyst";
+  EXPECT_TRUE(may_lie_in(gallbladder, TissueClass::fluid));
+  EXPECT_TRUE(may_lie_in(ribs, TissueClass::bone));
+  EXPECT_TRUE(may_lie_in(right_lung, TissueClass::soft_tissue)) << "its vessels are no class of their own";
+  EXPECT_FALSE(may_lie_in(spleen, TissueClass::soft_tissue)) << "stored before";
+  EXPECT_FALSE(may_lie_in(spleen, TissueClass::vessel));
+  EXPECT_FALSE(may_lie_in(aorta, TissueClass::soft_tissue));
+  EXPECT_FALSE(may_lie_in(liver, TissueClass::spleen)) << "another organ";
+  EXPECT_FALSE(may_lie_in(ribs, TissueClass::kidney));
 }
 
 TEST(Organs, OfAirThereAreNone) {
