@@ -105,7 +105,9 @@ SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_
 }
 // The same of a body that from the middle of the beam's way through it reaches so far to one side and to the other:
 // half the sum is its radius, half the difference how far off its middle the beam runs. A layer reaches as far to
-// both sides, at any tilt, and turns no ray.
+// both sides, at any tilt, and turns no ray. Never more than this (design): behind an edge the aperture looks past it on
+// both sides, so that its shadow deepens with the way and is no bar that begins black.
+SHARED_CONSTANT real kUsMostPartingPerMm = 0.08;
 SHARED_CONSTANT real kUsReachStepMm = 0.5, kUsReachStepShare = 0.1;  // of looks for its end, and of the way so far
 SHARED_CONSTANT real kUsMostReachMm = 40.0;
 SHARED_CONSTANT int kUsReachHalvings = 5;
@@ -113,7 +115,8 @@ SHARED real us_parting_by_width(real shift_inside, real shift_outside, real one_
   real radius_mm = real(0.5) * (one_mm + other_mm);
   real off = abs(one_mm - other_mm) / max(one_mm + other_mm, real(1e-3));
   real cosine = sqrt(max(real(1.0) - off * off, real(0.0)));
-  return us_parting_per_mm(shift_inside, shift_outside, real(2.0) * radius_mm * cosine, cosine, width_mm);
+  return clamp(us_parting_per_mm(shift_inside, shift_outside, real(2.0) * radius_mm * cosine, cosine, width_mm),
+               -kUsMostPartingPerMm, kUsMostPartingPerMm);
 }
 // Of those across the beam and out of the plane the one that turns rays more.
 SHARED real us_stronger(real one_per_mm, real other_per_mm) {
