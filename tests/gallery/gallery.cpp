@@ -60,12 +60,9 @@ TEST_F(Gallery, Ultrasound) {
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
   trainee.prepare();
   ASSERT_NO_FATAL_FAILURE(trainee.press_probe_on());
-  // Rocked by 15° towards the needle and compounded, so that beams meet the shaft nearer to squarely; along the
-  // planned way, which lies in the picture's plane.
-  trainee.screen().hold("j", 0.5);
-  trainee.press("z");
-  ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(50.0));
-  trainee.passes(2.0);  // all looks are of the needle where it is
+  ASSERT_NO_FATAL_FAILURE(trainee.take("needle"));
+  trainee.press("g");  // into its guide: in the picture's plane
+  ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(55.0));
   keep(trainee, "ultrasound");
   trainee.press("Return");
   keep(trainee, "room");
