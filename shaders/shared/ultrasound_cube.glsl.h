@@ -1,9 +1,10 @@
-// Where in its cube of the lattice a scatterer lies, and how a tile of the picture sees it. In float in both
-// languages: the CPU does eight at a time.
+// Where in its cube of the lattice a scatterer lies, of which voxel it is, and how a tile of the picture sees it. In
+// float in both languages: the CPU does eight at a time.
 #ifndef SELDINGER_SHADERS_SHARED_ULTRASOUND_CUBE
 #define SELDINGER_SHADERS_SHARED_ULTRASOUND_CUBE
 
-#include "real.glsl.h"  // beside this file: the one path that glslang and g++ both resolve
+#include "noise.glsl.h"  // beside this file: the one path that glslang and g++ both resolve
+#include "real.glsl.h"
 
 SHARED_BEGIN
 
@@ -16,6 +17,16 @@ SHARED float us_cube_v(uint bits) {
 }
 SHARED float us_cube_w(uint bits) {
   return (float(int(bits & 2047u)) + 0.5F) * (1.0F / 2048.0F);
+}
+
+// A scatterer is of the voxel so many voxels beside it, along each axis: a triangle from −1 to 1, of ten bits. So the
+// mean of what they send back goes from voxel to voxel as a quadratic B-spline, and what the CT tells by voxels has no
+// stairs. Fixed to the scatterer, so that it moves with the tissue.
+SHARED uint us_stray_bits(uint seed) {
+  return mix_32(seed ^ 0x5bd1e995u);
+}
+SHARED float us_stray(uint ten_bits) {
+  return float(int((ten_bits & 31u) + ((ten_bits >> 5u) & 31u)) - 31) * (1.0F / 32.0F);
 }
 
 // atan by its series, to 1e-7 at 12°: a tile is a few degrees wide.

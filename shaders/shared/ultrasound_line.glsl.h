@@ -87,19 +87,10 @@ SHARED real us_turned_rad(real n_less_1, real off_radii) {
   real sine = clamp(off_radii, -kUsMostSine, kUsMostSine);
   return abs(off_radii) < real(1.0) ? real(2.0) * n_less_1 * sine / sqrt(real(1.0) - sine * sine) : real(0.0);
 }
-// Of a body that a beam enters and leaves by planes of these normals, both the way the beam goes, in any frame, and
-// so much of them along the beam: the cosine at which it would leave a ball that turns it as much. A side turns a
-// ray by the tangent of its lean; the two of a ball lean against each other, those of a layer alike, and turn no
-// ray.
-SHARED real us_round_cosine(real3 into, real into_along, real3 out_of, real out_along) {
-  real3 lean = real(0.5) * (out_of / max(out_along, real(1e-3)) - into / max(into_along, real(1e-3)));
-  return real(1.0) / sqrt(real(1.0) + dot(lean, lean));
-}
 // How far the rays of a beam of this width part, a share of the width for each mm behind the body (negative: they
 // meet); 0: of no round body. The ball is told by chord and cosine of the angle to the normal where the beam leaves
-// it (us_round_cosine; laws before clutter take the plane there alone). Smaller ones are narrower than a beam, or
-// single voxels of noise. What is left within 30° of squarely may be a layer, which voxels tell roughly; a ball
-// hardly turns a ray there.
+// it, by the law scatter, or by us_parting_by_width. Smaller ones are narrower than a beam, or single voxels of noise.
+// What is left within 30° of squarely may be a layer, which voxels tell roughly; a ball hardly turns a ray there.
 SHARED_CONSTANT real kUsLeastRoundMm = 3.0, kUsLeastChordMm = 2.0;
 SHARED_CONSTANT real kUsLayerSine = 0.5, kUsRoundSine = 0.7;
 SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_mm, real cosine, real width_mm) {
@@ -111,6 +102,25 @@ SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_
   real at_edge = clamp((off - kUsLayerSine) / (kUsRoundSine - kUsLayerSine), real(0.0), real(1.0));
   return is_round ? at_edge * (us_turned_rad(n_less_1, off - side) - us_turned_rad(n_less_1, off + side)) / width_mm
                   : real(0.0);
+}
+// The same of a body that from the middle of the beam's way through it reaches so far to one side and to the other:
+// half the sum is its radius, half the difference how far off its middle the beam runs. A layer reaches as far to
+// both sides, at any tilt, and turns no ray. Never more than this (design): behind an edge the aperture looks past it on
+// both sides, so that its shadow deepens with the way and is no bar that begins black.
+SHARED_CONSTANT real kUsMostPartingPerMm = 0.08;
+SHARED_CONSTANT real kUsReachStepMm = 0.5, kUsReachStepShare = 0.1;  // of looks for its end, and of the way so far
+SHARED_CONSTANT real kUsMostReachMm = 40.0;
+SHARED_CONSTANT int kUsReachHalvings = 5;
+SHARED real us_parting_by_width(real shift_inside, real shift_outside, real one_mm, real other_mm, real width_mm) {
+  real radius_mm = real(0.5) * (one_mm + other_mm);
+  real off = abs(one_mm - other_mm) / max(one_mm + other_mm, real(1e-3));
+  real cosine = sqrt(max(real(1.0) - off * off, real(0.0)));
+  return clamp(us_parting_per_mm(shift_inside, shift_outside, real(2.0) * radius_mm * cosine, cosine, width_mm),
+               -kUsMostPartingPerMm, kUsMostPartingPerMm);
+}
+// Of those across the beam and out of the plane the one that turns rays more.
+SHARED real us_stronger(real one_per_mm, real other_per_mm) {
+  return abs(one_per_mm) >= abs(other_per_mm) ? one_per_mm : other_per_mm;
 }
 // Share of the two-way amplitude that is left behind it: power falls as rays part, and an echo comes back the same
 // way. Never more than 1: of how bright a focus is rays know nothing. Never less than this (design): what they

@@ -22,8 +22,8 @@ struct UsTissue {
   int size_z;
   int no_offset;        // the voxel's level at which the class's amplitude stands; the log of what a step more
   float log_of_a_step;  // makes of it
+  int strays;           // scatterers are of voxels about them (us_stray); 0: of the one that they lie in
   int padding_1;
-  int padding_2;
 };
 
 struct UsScatterParameters {
@@ -52,8 +52,8 @@ SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
 SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u, kUsFluid = 4u,
                      kUsVessel = 12u;  // classes of tissue; before the first:
 SHARED_CONSTANT int kUsGel = 255;
-// By what round bodies are told: the plane where the beam leaves them, or that where it comes in as well.
-SHARED_CONSTANT int kUsEdgesByOneSide = 1, kUsEdgesByBothSides = 2;
+// By what round bodies are told: the plane where the beam leaves them, or how wide they are about its way through them.
+SHARED_CONSTANT int kUsEdgesByOneSide = 1, kUsEdgesByWidth = 2;
 struct UsLineParameters {
   vec4
       of_class[16];  // x: impedance in MRayl; y: loss in dB a mm; z, w: their sum is how much deeper a sample shows
@@ -75,9 +75,9 @@ struct UsLineParameters {
   float f_number;
   float aperture_mm;
   float focus_mm;
-  int padding_1;
-  int padding_2;
-  int padding_3;
+  float elevation_x;  // unit, out of the plane
+  float elevation_y;
+  float elevation_z;
 };
 
 // A beam.

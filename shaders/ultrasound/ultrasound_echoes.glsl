@@ -38,7 +38,7 @@ void put(int beam, int place, float depth_mm, float amplitude, float parting_per
   echoes[beam * kUsMostEchoes + place] = vec4(depth_mm, amplitude * cos(angle), amplitude * sin(angle), parting_per_mm);
 }
 
-// A sample's upper border and what lies there, as it was at rest.
+// What lies so many samples down a beam, as it was at rest.
 struct Meeting {
   dvec3 index;
   vec3 from_origin_mm;
@@ -47,11 +47,11 @@ struct Meeting {
   PathPlace path;
 #endif
 };
-Meeting meeting_at(int beam, UsBeam at, int k) {
+Meeting meeting_at(int beam, UsBeam at, double k) {
   Meeting here;
   float depth_mm = float(k) * parameters.sample_mm;
   here.index = dvec3(at.index.xyz) + dvec3(at.index_rest.xyz) +
-               double(k) * (dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz));
+               k * (dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz));
   here.from_origin_mm = at.start_mm.xyz + depth_mm * at.direction.xyz;
   here.way = at.direction.xyz;
 #ifdef ULTRASOUND_MOVED
@@ -81,40 +81,64 @@ vec3 normal_at(Meeting here, float before, float after) {
   float side_mm = length(normal);
   return side_mm > parameters.least_side_mm ? normal / side_mm : vec3(0.0);
 }
-// As the beam meets it now: along it, across it and out of the plane; or, of tissue that lies still, as it is.
-vec3 as_met(Meeting here, vec3 normal) {
-#ifdef ULTRASOUND_MOVED
-  return vec3(dot(normal, here.way), dot(normal, path_value(here.path, 1)), dot(normal, path_value(here.path, 2)));
-#else
-  return normal;
-#endif
-}
 float before_mrayl(ivec4 listed) {
   int before_class = listed.y & 255;
   return before_class == kUsGel ? kUsMatchedMrayl : parameters.of_class[before_class].x;
 }
 
+// From a place in a body to its end.
+float reach_mm(Meeting from, vec3 way, vec3 way_voxels, uint inside) {
+  float within = 0.0;
+  float beyond = kUsMostReachMm;
+  float at = kUsReachStepMm;
+  while (at < kUsMostReachMm) {
+    bool is_inside =
+        class_at(ivec3(floor(from.index + dvec3(at * way_voxels))), from.from_origin_mm + at * way) == inside;
+    within = is_inside ? at : within;
+    beyond = is_inside ? beyond : at;
+    at = is_inside ? at + max(kUsReachStepMm, kUsReachStepShare * at) : kUsMostReachMm;
+  }
+  for (int i = 0; i < kUsReachHalvings; ++i) {
+    float middle = 0.5 * (within + beyond);
+    bool is_inside =
+        class_at(ivec3(floor(from.index + dvec3(middle * way_voxels))), from.from_origin_mm + middle * way) == inside;
+    within = is_inside ? middle : within;
+    beyond = is_inside ? beyond : middle;
+  }
+  return 0.5 * (within + beyond);
+}
+
 // The parting of rays behind a round body that the beam leaves here: the interface before is where it came in.
-float parting_behind(int beam, int place, UsBeam at, ivec4 here, Meeting out_at, vec3 out_normal, float cosine,
-                     float depth_mm) {
+float parting_behind(int beam, int place, UsBeam at, ivec4 here, float cosine, float depth_mm) {
   uint inside = uint(here.y & 255);
   bool leaves = parameters.edges != 0 && place > 0 && (inside == kUsFluid || inside == kUsVessel) &&
                 us_is_matched(parameters.of_class[here.y >> 8].x);
   ivec4 last = interfaces[beam * kUsMostInterfaces + max(place - 1, 0)];
   if (!leaves || uint(last.y >> 8) != inside) return 0.0;
-  if (parameters.edges == kUsEdgesByBothSides) {
-    Meeting into = meeting_at(beam, at, last.x);
-    vec3 into_normal = normal_at(into, before_mrayl(last), parameters.of_class[inside].x);
-    if (last.x == 0 || into_normal == vec3(0.0) || out_normal == vec3(0.0)) return 0.0;
-    cosine = us_round_cosine(as_met(into, into_normal), dot(into_normal, into.way), as_met(out_at, out_normal),
-                             dot(out_normal, out_at.way));
-  }
   vec4 within = parameters.of_class[inside];
   vec4 beyond = parameters.of_class[here.y >> 8];
+  float shift_inside = (within.z + within.w) / parameters.sample_mm;
+  float shift_beyond = (beyond.z + beyond.w) / parameters.sample_mm;
   float width_mm = us_lateral_fwhm_mm(max(depth_mm, 1.0), parameters.wavelength_mm, parameters.f_number,
                                       parameters.aperture_mm, parameters.focus_mm);
-  return us_parting_per_mm((within.z + within.w) / parameters.sample_mm, (beyond.z + beyond.w) / parameters.sample_mm,
-                           float(here.x - last.x) * parameters.sample_mm, cosine, width_mm);
+  if (parameters.edges == kUsEdgesByOneSide)
+    return us_parting_per_mm(shift_inside, shift_beyond, float(here.x - last.x) * parameters.sample_mm, cosine,
+                             width_mm);
+  if (last.x == 0) return 0.0;
+  Meeting middle = meeting_at(beam, at, 0.5lf * double(last.x + here.x));
+  vec3 elevation = vec3(parameters.elevation_x, parameters.elevation_y, parameters.elevation_z);
+  vec3 across = normalize(cross(elevation, middle.way));
+  mat3 voxels_per_mm = inverse(mat3(parameters.mm_per_voxel[0].xyz, parameters.mm_per_voxel[1].xyz,
+                                    parameters.mm_per_voxel[2].xyz));
+  float parting[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    vec3 way = axis == 0 ? across : elevation;
+    vec3 way_voxels = voxels_per_mm * way;
+    float one_mm = reach_mm(middle, way, way_voxels, inside);
+    float other_mm = reach_mm(middle, -way, -way_voxels, inside);
+    parting[axis] = us_parting_by_width(shift_inside, shift_beyond, one_mm, other_mm, width_mm);
+  }
+  return us_stronger(parting[0], parting[1]);
 }
 
 void put_interface(int beam, int place, UsBeam at) {
@@ -127,15 +151,15 @@ void put_interface(int beam, int place, UsBeam at) {
   float reflection = us_reflection(before, after);
   float depth_mm = float(k) * parameters.sample_mm;
   float cosine = 1.0;
-  Meeting meeting = meeting_at(beam, at, k);
+  Meeting meeting = meeting_at(beam, at, double(k));
   vec3 normal = vec3(0.0);
   if (k > 0) {
     normal = normal_at(meeting, before, after);
     bool told = normal != vec3(0.0);
     float along = dot(normal, meeting.way);
 #ifdef ULTRASOUND_MOVED
-    vec3 met = as_met(meeting, normal);
-    float facing = us_facing(met.x, met.y, met.z);
+    // As the beam meets it now.
+    float facing = us_facing(along, dot(normal, path_value(meeting.path, 1)), dot(normal, path_value(meeting.path, 2)));
 #else
     float facing = abs(along);
 #endif
@@ -159,8 +183,7 @@ void put_interface(int beam, int place, UsBeam at) {
   }
   // Its echo, and the repeats of a strong one.
   float face = reflection * us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_to_db);
-  put(beam, here.z, depth_mm, face,
-      parting_behind(beam, place, at, here, meeting, normal, cosine, depth_mm));
+  put(beam, here.z, depth_mm, face, parting_behind(beam, place, at, here, cosine, depth_mm));
   if (abs(reflection) < kUsRepeatsFrom) return;
   int room = float(k) * parameters.sample_mm > parameters.most_shift_mm ? kUsMostAgain : 1 + kUsLensLines;
   for (int i = 1; i < room; ++i) {

@@ -18,9 +18,12 @@ layout(std430, binding = 4) readonly buffer Slab { vec4 slab_mm[]; };  // a colu
 #endif
 #include "ultrasound/ultrasound_tissue.glsl"
 
-float amplitude_at(UsTile tile, vec3 at_mm) {
+float amplitude_at(UsTile tile, vec3 at_mm, uint seed) {
+  uint bits = us_stray_bits(seed);
+  vec3 stray = vec3(us_stray(bits), us_stray(bits >> 10u), us_stray(bits >> 20u));
   return speckle_amplitude(
-      tile.index.xyz + at_mm.x * tile.index_x.xyz + at_mm.y * tile.index_y.xyz + at_mm.z * tile.index_z.xyz,
+      tile.index.xyz + at_mm.x * tile.index_x.xyz + at_mm.y * tile.index_y.xyz + at_mm.z * tile.index_z.xyz +
+          (tissue.strays != 0 ? stray : vec3(0.0)),
       tile.origin_mm.xyz + at_mm.x * tile.axis_x.xyz + at_mm.y * tile.axis_y.xyz + at_mm.z * tile.axis_z.xyz);
 }
 
@@ -79,7 +82,8 @@ void main() {
   vec3 above_mm = vec3(0.0);
 #endif
   for (int cube = int(ceil(low)); cube <= last; ++cube) {
-    uint bits = us_lattice_bits(row_seed + uint(cube) * tile.step_inner);
+    uint seed = row_seed + uint(cube) * tile.step_inner;
+    uint bits = us_lattice_bits(seed);
     vec3 at_mm = row_mm + float(cube) * tile.inner_mm.xyz + us_cube_u(bits) * tile.edge_x_mm.xyz +
                  us_cube_v(bits) * tile.edge_y_mm.xyz + us_cube_w(bits) * tile.edge_z_mm.xyz;
     vec3 rest_mm = at_mm;
@@ -104,7 +108,7 @@ void main() {
     bool inside = depth_mm >= tile.from_box_mm.w && depth_mm < tile.half_box_mm.w &&
                   abs(at_mm.y) < tile.corner_mm.w && beam >= tile.edge_y_mm.w && beam < tile.edge_z_mm.w &&
                   q_y < 512.0;
-    float amplitude = inside ? amplitude_at(tile, rest_mm) * at.w : 0.0;
+    float amplitude = inside ? amplitude_at(tile, rest_mm, seed) * at.w : 0.0;
     uint turned = us_lattice_turned(bits) * uint(kUsPhases / 2);
     uint phase = (uint(depth_mm * parameters.phases_per_mm) + turned) & uint(kUsPhases - 1);
     vec2 value = amplitude * phases[phase].xy;

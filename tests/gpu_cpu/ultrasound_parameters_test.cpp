@@ -40,13 +40,19 @@ void expect_offsets(const char* name, const char* block, const Offsets& ours, st
   { #field, offsetof(shaders::Struct, field) }
 
 TEST(UltrasoundParameters, OfTissue) {
-  const Offsets ours{FIELD(UsTissue, amplitude),        FIELD(UsTissue, lesion_sphere_mm),
-                     FIELD(UsTissue, lesion_amplitude), FIELD(UsTissue, lesion_rim),
-                     FIELD(UsTissue, lesion_count),     FIELD(UsTissue, size_x),
-                     FIELD(UsTissue, size_y),           FIELD(UsTissue, size_z),
-                     FIELD(UsTissue, no_offset),        FIELD(UsTissue, log_of_a_step)};
+  const Offsets ours{FIELD(UsTissue, amplitude),
+                     FIELD(UsTissue, lesion_sphere_mm),
+                     FIELD(UsTissue, lesion_amplitude),
+                     FIELD(UsTissue, lesion_rim),
+                     FIELD(UsTissue, lesion_count),
+                     FIELD(UsTissue, size_x),
+                     FIELD(UsTissue, size_y),
+                     FIELD(UsTissue, size_z),
+                     FIELD(UsTissue, no_offset),
+                     FIELD(UsTissue, log_of_a_step),
+                     FIELD(UsTissue, strays)};
   expect_offsets("ultrasound_scatter.comp", "tissue", ours, ours.size());
-  expect_offsets("ultrasound_lattice_noise.comp", "tissue", ours, ours.size());
+  expect_offsets("ultrasound_lattice_noise.comp", "tissue", ours, ours.size() - 1);
 }
 
 TEST(UltrasoundParameters, OfScatterersAndTheirTiles) {
@@ -119,7 +125,8 @@ TEST(UltrasoundParameters, OfTheLines) {
                      FIELD(UsLineParameters, shifts),       FIELD(UsLineParameters, least_side_mm),
                      FIELD(UsLineParameters, edges),        FIELD(UsLineParameters, wavelength_mm),
                      FIELD(UsLineParameters, f_number),     FIELD(UsLineParameters, aperture_mm),
-                     FIELD(UsLineParameters, focus_mm)};
+                     FIELD(UsLineParameters, focus_mm),     FIELD(UsLineParameters, elevation_x),
+                     FIELD(UsLineParameters, elevation_y),  FIELD(UsLineParameters, elevation_z)};
   expect_offsets("ultrasound_lines.comp", "parameters", ours, 6);
   expect_offsets("ultrasound_echoes.comp", "parameters", ours, 18);
   const Offsets beams{FIELD(UsBeam, index),         FIELD(UsBeam, index_rest),

@@ -132,8 +132,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
   bool needle_above = false;
   const bool edges = shows_artefacts(view_);
-  std::optional<std::size_t> entered;  // the sample behind the last interface that is heard,
-  double entered_from_mrayl = 0.0;     // and what lies before that
+  std::optional<std::size_t> entered;  // the sample behind the last interface that is heard
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);
     const double mrayl = table_[tissue].impedance_mrayl;
@@ -149,9 +148,9 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
       if (edges && entered && line.tissue[*entered] == line.tissue[k - 1] && is_round(line.tissue[k - 1]) &&
           shaders::us_is_matched(mrayl))
         lens = {static_cast<double>(k - *entered) * dz, shift_per_mm_[static_cast<std::size_t>(line.tissue[k - 1])],
-                shift_per_mm_[tissue], *entered, entered_from_mrayl};
+                shift_per_mm_[tissue], *entered, line.tissue[k - 1]};
       add_interface(path, static_cast<int>(k), before_mrayl, mrayl, sum_db, lens, line);
-      if (k == 0 || shaders::us_is_heard(reflection)) entered = k, entered_from_mrayl = before_mrayl;
+      if (k == 0 || shaders::us_is_heard(reflection)) entered = k;
       sum_db += shaders::us_step_loss_db(reflection);
       before_mrayl = mrayl;
     }
@@ -203,20 +202,39 @@ void LineWalker::shift(std::size_t first, Line& line) const {
   }
 }
 
-double LineWalker::parting_per_mm(const BeamPath& path, const Lens& lens, double inside_mrayl, int left,
-                                  const Plane& plane, double cosine, double depth_mm) const {
-  if (tells_layers(view_)) {
-    const double into_mm = static_cast<double>(lens.entered) * fan_.sample_mm, left_mm = left * fan_.sample_mm;
-    const Plane into = lens.entered > 0 ? plane_at(path.at(into_mm), lens.before_mrayl, inside_mrayl) : Plane{};
-    if (!into.is_told || !plane.is_told) return 0.0;
-    cosine =
-        shaders::us_round_cosine(path.as_met(into_mm, into.normal), glm::dot(into.normal, path.along(into_mm)),
-                                 path.as_met(left_mm, plane.normal), glm::dot(plane.normal, path.along(left_mm)));
+double LineWalker::reach_mm(const glm::dvec3& from_lps_mm, const glm::dvec3& way, TissueClass inside) const {
+  double within_mm = 0.0, beyond_mm = shaders::kUsMostReachMm;
+  for (double at_mm = shaders::kUsReachStepMm; at_mm < shaders::kUsMostReachMm;
+       at_mm += std::max(shaders::kUsReachStepMm, shaders::kUsReachStepShare * at_mm)) {
+    if (tissue_at_(from_lps_mm + at_mm * way) != inside) {
+      beyond_mm = at_mm;
+      break;
+    }
+    within_mm = at_mm;
   }
+  for (int i = 0; i < shaders::kUsReachHalvings; ++i) {
+    const double middle_mm = 0.5 * (within_mm + beyond_mm);
+    (tissue_at_(from_lps_mm + middle_mm * way) == inside ? within_mm : beyond_mm) = middle_mm;
+  }
+  return 0.5 * (within_mm + beyond_mm);
+}
+
+double LineWalker::parting_per_mm(const BeamPath& path, const Lens& lens, int left, double cosine,
+                                  double depth_mm) const {
   const double width_mm =
       shaders::us_lateral_fwhm_mm(std::max(depth_mm, 1.0), shaders::us_wavelength_mm(frequency_mhz_),
                                   view_.probe.f_number, view_.probe.aperture_mm, view_.focus_mm);
-  return shaders::us_parting_per_mm(lens.shift_inside, lens.shift_outside, lens.chord_mm, cosine, width_mm);
+  if (!tells_layers(view_))
+    return shaders::us_parting_per_mm(lens.shift_inside, lens.shift_outside, lens.chord_mm, cosine, width_mm);
+  if (lens.entered == 0) return 0.0;
+  const double middle_mm = 0.5 * (static_cast<double>(lens.entered) + left) * fan_.sample_mm;
+  const glm::dvec3 middle = path.at(middle_mm),
+                   across = glm::normalize(glm::cross(fan_.elevation, path.along(middle_mm)));
+  const auto parting = [&](const glm::dvec3& way) {
+    return shaders::us_parting_by_width(lens.shift_inside, lens.shift_outside, reach_mm(middle, way, lens.inside),
+                                        reach_mm(middle, -way, lens.inside), width_mm);
+  };
+  return shaders::us_stronger(parting(across), parting(fan_.elevation));
 }
 
 void LineWalker::add_interface(const BeamPath& path, int sample, double before_mrayl, double after_mrayl,
@@ -235,7 +253,7 @@ void LineWalker::add_interface(const BeamPath& path, int sample, double before_m
       depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));
   }
   const double face = reflection * shaders::us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_db);
-  const double parting = lens ? parting_per_mm(path, *lens, before_mrayl, sample, plane, cosine, depth_mm) : 0.0;
+  const double parting = lens ? parting_per_mm(path, *lens, sample, cosine, depth_mm) : 0.0;
   line.echoes.push_back({depth_mm, face, parting});
   if (std::abs(reflection) < shaders::kUsRepeatsFrom || depth_mm <= 0.0) {
     // Gas at the face itself rings in the lens.
@@ -310,9 +328,14 @@ NeedleLine LineWalker::needle_line(int beam) const {
     // Lines from inside: the lumen of a hollow one, as deep as saline shows it; the steel of a solid one.
     const double spacing_mm = needle_->inner_radius_mm > 0.0 ? 2.0 * needle_->inner_radius_mm * 1540.0 / 1480.0
                                                              : 2.0 * needle_->radius_mm * 1540.0 / 5790.0;
-    for (int n = 1; n <= kMostTailLines && echo.mirror > echo.rough; ++n)
-      line.echoes.push_back(
-          {at.depth_mm + n * spacing_mm, echo.mirror * at.weight * us_amplitude(-n * kTailDbPerLine), at.depth_mm});
+    // By laws before clutter they are all there, or none where the shaft's roughness is stronger than its mirror.
+    const bool fades = shows_clutter(view_);
+    const double per_line_db = fades && needle_->inner_radius_mm > 0.0 ? kLumenDbPerLine : kTailDbPerLine;
+    for (int n = 1; n <= kMostTailLines; ++n) {
+      const double level = echo.mirror * at.weight * us_amplitude(-n * per_line_db);
+      if (fades ? level > us_amplitude(kLeastTailDb) : echo.mirror > echo.rough)
+        line.echoes.push_back({at.depth_mm + n * spacing_mm, level, at.depth_mm});
+    }
   }
   if (at.tip_depth_mm >= 0.0) {
     // The end of the shaft does not lie in the shaft's shadow.

@@ -19,6 +19,9 @@ using shaders::kUsInterfaceConeRad, shaders::kUsInterfaceDb, shaders::kUsInterfa
 // leak (design).
 constexpr double kNeedleShadowDb = 10.0;
 constexpr double kTailDbPerLine = 5.0;  // of a comet tail (design, 4 to 6)
+// Of a lumen's, which are a millimetre apart: as many as are told apart in pictures (Reusz et al., Br. J. Anaesth.
+// 112 (2014) 794) rise above liver, and none ends before clutter hides it (design).
+constexpr double kLumenDbPerLine = 8.0, kLeastTailDb = -30.0;
 
 constexpr bool is_gas(volume::TissueClass tissue) noexcept {
   return tissue == volume::TissueClass::air || tissue == volume::TissueClass::gas;
@@ -88,13 +91,14 @@ class LineWalker {
   struct Lens {
     double chord_mm, shift_inside, shift_outside;
     std::size_t entered;  // the first sample in it
-    double before_mrayl;  // of what it was entered from
+    volume::TissueClass inside;
   };
   void add_interface(const BeamPath& path, int sample, double before_mrayl, double after_mrayl, double loss_db,
                      const std::optional<Lens>& lens, Line& line) const;
-  // Of a body that is left there by a plane; cosine: to that plane.
-  double parting_per_mm(const BeamPath& path, const Lens& lens, double inside_mrayl, int left, const Plane& plane,
-                        double cosine, double depth_mm) const;
+  // Of a body that is left above sample `left` by a plane; cosine: to that plane.
+  double parting_per_mm(const BeamPath& path, const Lens& lens, int left, double cosine, double depth_mm) const;
+  // From a place in a body to its end.
+  double reach_mm(const glm::dvec3& from_lps_mm, const glm::dvec3& way, volume::TissueClass inside) const;
   double border_mm(const BeamPath& path, std::size_t sample, const Line& line) const;
   struct NeedleCrossing;
   NeedleCrossing crossing(const glm::dvec3& start, const glm::dvec3& direction) const;

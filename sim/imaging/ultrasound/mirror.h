@@ -16,7 +16,7 @@ namespace seldinger::imaging {
 inline bool shows_artefacts(const UltrasoundView& view) {
   return view.sight_law >= cases::SightLaw::scatter;
 }
-// Layers from round bodies, by both of their sides; the law scatter takes a layer that is tilted for a ball.
+// Layers from round bodies, by how wide they are; the law scatter takes a layer that is tilted for a ball.
 inline bool tells_layers(const UltrasoundView& view) {
   return view.sight_law >= cases::SightLaw::clutter;
 }

@@ -91,6 +91,7 @@ UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, co
   t.size_z = tissue.volume->size_voxels.z;
   t.no_offset = kNoEchoOffset;
   t.log_of_a_step = static_cast<float>(kEchoStepDb * std::log(10.0) / 20.0);
+  t.strays = blends_voxels(view) ? 1 : 0;
   return t;
 }
 
@@ -267,13 +268,15 @@ UsLineParameters line_parameters(const TissueVolume& tissue, const UltrasoundVie
   p.per_unit = 1.0F / SpeckleField::kUnit;
   p.least_side_mm = static_cast<float>(walker.least_side_mm());
   p.shifts = view.range_error ? 1 : 0;
-  p.edges = !shows_artefacts(view) ? 0
-            : tells_layers(view)   ? shaders::kUsEdgesByBothSides
-                                   : shaders::kUsEdgesByOneSide;
+  p.edges = !shows_artefacts(view) ? 0 : tells_layers(view) ? shaders::kUsEdgesByWidth : shaders::kUsEdgesByOneSide;
   p.wavelength_mm = static_cast<float>(shaders::us_wavelength_mm(working_mhz(view)));
   p.f_number = static_cast<float>(view.probe.f_number);
   p.aperture_mm = static_cast<float>(view.probe.aperture_mm);
   p.focus_mm = static_cast<float>(view.focus_mm);
+  const glm::vec3 elevation(fan_of(view).elevation);
+  p.elevation_x = elevation.x;
+  p.elevation_y = elevation.y;
+  p.elevation_z = elevation.z;
   return p;
 }
 

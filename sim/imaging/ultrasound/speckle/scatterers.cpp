@@ -480,6 +480,11 @@ void ScattererField::BandWriter::lay_chunk() const {
   std::int32_t* const out = out_.data();
   const float* const gauss = tables().gauss.data();
   const auto& phase = phases();
+  const TissueAt& tissue_at = field.tissue_at_;
+  // As the GPU has it: a tile's frame in voxels.
+  const bool blends = blends_voxels(field.view_), in_lps = !blends || tissue_at.has_lesions();
+  const glm::vec3 start_voxels(tissue_at.voxels_at(start)), x_voxels(tissue_at.voxels_along(x_axis)),
+      y_voxels(tissue_at.voxels_along(y_axis)), z_voxels(tissue_at.voxels_along(z_axis));
 
   // The scatterers that the tile holds.
   std::array<int, kChunk> chosen;
@@ -500,10 +505,23 @@ void ScattererField::BandWriter::lay_chunk() const {
     const int to = std::min(end - 1, static_cast<int>(std::floor(beam + at.lateral_reach)));
     if (from > to) continue;
     // Its amplitude, by the tissue in which it lies at rest, and its phase.
-    const glm::dvec3 p = start + static_cast<double>(chunk_.x[n]) * x_axis +
-                         static_cast<double>(moving ? chunk_.at_y[n] : chunk_.y[n]) * y_axis +
-                         static_cast<double>(chunk_.z[n]) * z_axis;
-    const float tissue = field.tissue_at_.speckle(p);
+    const float at_x = chunk_.x[n], at_y = moving ? chunk_.at_y[n] : chunk_.y[n], at_z = chunk_.z[n];
+    glm::dvec3 p(0.0);
+    if (in_lps)
+      p = start + static_cast<double>(at_x) * x_axis + static_cast<double>(at_y) * y_axis +
+          static_cast<double>(at_z) * z_axis;
+    float tissue = 0.0F;
+    if (!blends) {
+      tissue = tissue_at.speckle(p);
+    } else if (const float* of_lesion = in_lps ? tissue_at.speckle_of_lesion(p) : nullptr) {
+      tissue = *of_lesion;
+    } else {
+      const std::uint32_t bits = shaders::us_stray_bits(chunk_.seed[n]);
+      const glm::vec3 stray(shaders::us_stray(bits), shaders::us_stray(bits >> 10U),
+                            shaders::us_stray(bits >> 20U));
+      tissue =
+          tissue_at.speckle_of_voxel(start_voxels + at_x * x_voxels + at_y * y_voxels + at_z * z_voxels + stray);
+    }
     if (tissue == 0.0F) continue;
     const float amplitude = tissue * at.amplitude;
     const auto& turn = phase[(static_cast<std::uint32_t>(chunk_.depth[n] * turns) + chunk_.phase[n]) % kPhases];

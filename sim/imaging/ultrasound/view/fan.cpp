@@ -78,6 +78,7 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   a_ = m[0], b_ = m[1], c_ = m[2], d_ = glm::dvec3(m[3]) + 0.5;
   const glm::ivec3 n = tissue.volume->size_voxels;
   nx_ = n.x, ny_ = n.y, nz_ = n.z;
+  size_ = glm::vec3(n);
   row_ = n.x;
   slice_ = row_ * n.y;
   classes_ = tissue.classes.data();

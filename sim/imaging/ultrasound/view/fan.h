@@ -49,10 +49,25 @@ class TissueAt {
   // Amplitude of the speckle, 1 for liver.
   float speckle(const glm::dvec3& p_lps_mm) const noexcept {
     if (const Part* part = lesion_at(p_lps_mm)) return part->amplitude;
-    const std::int64_t at = voxel_at(p_lps_mm);
-    if (at < 0) return amplitude_[static_cast<std::size_t>(volume::TissueClass::air)];
-    const float of_class = amplitude_[static_cast<std::size_t>(classes_[at])];
-    return echogenicity_ == nullptr ? of_class : of_class * offset_[echogenicity_[at]];
+    return speckle_of(voxel_at(p_lps_mm));
+  }
+  // Of the lesion there; null: of none.
+  const float* speckle_of_lesion(const glm::dvec3& p_lps_mm) const noexcept {
+    const Part* part = lesion_at(p_lps_mm);
+    return part == nullptr ? nullptr : &part->amplitude;
+  }
+  bool has_lesions() const noexcept { return !lesions_.empty(); }
+  // Of the volume alone, at a place told in voxels: index + ½, so that truncation is the nearest.
+  float speckle_of_voxel(const glm::vec3& voxels) const noexcept {
+    const bool inside = voxels.x >= 0.0F && voxels.y >= 0.0F && voxels.z >= 0.0F && voxels.x < size_.x &&
+                        voxels.y < size_.y && voxels.z < size_.z;
+    return speckle_of(inside ? static_cast<std::int64_t>(voxels.x) + row_ * static_cast<std::int64_t>(voxels.y) +
+                                   slice_ * static_cast<std::int64_t>(voxels.z)
+                             : -1);
+  }
+  glm::dvec3 voxels_at(const glm::dvec3& p_lps_mm) const noexcept { return voxels_along(p_lps_mm) + d_; }
+  glm::dvec3 voxels_along(const glm::dvec3& way_mm) const noexcept {
+    return a_ * way_mm.x + b_ * way_mm.y + c_ * way_mm.z;
   }
 
  private:
@@ -73,6 +88,11 @@ class TissueAt {
     }
     return nullptr;
   }
+  float speckle_of(std::int64_t voxel) const noexcept {
+    if (voxel < 0) return amplitude_[static_cast<std::size_t>(volume::TissueClass::air)];
+    const float of_class = amplitude_[static_cast<std::size_t>(classes_[voxel])];
+    return echogenicity_ == nullptr ? of_class : of_class * offset_[echogenicity_[voxel]];
+  }
   // −1 outside.
   std::int64_t voxel_at(const glm::dvec3& p_lps_mm) const noexcept {
     const double i = a_.x * p_lps_mm.x + b_.x * p_lps_mm.y + c_.x * p_lps_mm.z + d_.x;
@@ -86,6 +106,7 @@ class TissueAt {
   std::vector<Sphere> lesions_;
   glm::dvec3 a_, b_, c_, d_;  // columns of index + ½ from LPS: truncation is the nearest voxel
   double nx_, ny_, nz_;
+  glm::vec3 size_;  // the same
   std::int64_t row_, slice_;
   const volume::TissueClass* classes_;
   const std::uint8_t* echogenicity_;

@@ -161,20 +161,15 @@ BeamPath RestFan::path_down_to(const Fan::Way& way, double beam, double depth_mm
   return path(way, beam, static_cast<int>(at) + 2);
 }
 
-glm::dvec3 BeamPath::as_met(double depth_mm, const glm::dvec3& normal) const noexcept {
-  if (aside_.empty()) return normal;
+double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcept {
+  const double on = glm::dot(normal, along(depth_mm));
+  if (aside_.empty()) return std::abs(on);
   const double nodes = depth_mm * per_mm_;
   const std::size_t node = node_at(nodes);
   const double part = nodes - static_cast<double>(node);
   const Aside &low = aside_[node], &high = aside_[node + 1];
-  return {glm::dot(normal, along(depth_mm)), glm::dot(normal, low.across + part * (high.across - low.across)),
-          glm::dot(normal, low.out + part * (high.out - low.out))};
-}
-
-double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcept {
-  if (aside_.empty()) return std::abs(glm::dot(normal, along(depth_mm)));
-  const glm::dvec3 met = as_met(depth_mm, normal);
-  return shaders::us_facing(met.x, met.y, met.z);
+  return shaders::us_facing(on, glm::dot(normal, low.across + part * (high.across - low.across)),
+                            glm::dot(normal, low.out + part * (high.out - low.out)));
 }
 
 PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement)

@@ -32,10 +32,7 @@ class BeamPath {
         aside_(std::move(aside)),
         per_mm_(per_mm) {}
 
-  // An interface's normal, which is told at rest, as the beam meets it: along it, across it and out of the plane;
-  // of tissue that lies still as it is.
-  glm::dvec3 as_met(double depth_mm, const glm::dvec3& normal) const noexcept;
-  // Cosine of the angle between the beam and such a normal.
+  // Cosine of the angle between the beam and an interface's normal, which is told at rest.
   double facing(double depth_mm, const glm::dvec3& normal) const noexcept;
 
   // X of the tissue at a depth.

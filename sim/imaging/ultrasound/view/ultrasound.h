@@ -100,6 +100,12 @@ double clutter_db(const UltrasoundView& view, double depth_mm) noexcept;
 // Lies still in the picture whatever moves behind it: by the view's seed. Beams that stand in air have none.
 void add_clutter(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture);
 
+// Borders of what the CT tells by voxels without their stairs, in cases of the same law (docs/decisions/0097). What
+// is told of a picture asks the voxel alone.
+inline bool blends_voxels(const UltrasoundView& view) {
+  return view.sight_law >= cases::SightLaw::clutter;
+}
+
 // From a share of the dynamic range to a share of white: as it is, dark parts lifted, or middle greys spread.
 enum class GreyMap { linear, lifted, contrast };
 

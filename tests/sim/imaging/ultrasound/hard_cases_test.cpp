@@ -257,7 +257,9 @@ TEST(HardCase, GrazingASurfaceIsFinite) {
       // Beams wholly on liver's side do not know of it.
       const PolarPicture without = polar_of(all_of(TissueClass::liver), view);
       if (tilt_deg == 90.0 && !fan_of(view).curved) {
-        for (int k = 0; k < view.samples; ++k) EXPECT_NEAR(at(picture, 20, k), at(without, 20, k), 1e-6F);
+        // Where the volume ends, 50 mm deep, speckle fades out within a voxel.
+        for (int k = 0; k < sample_at(view, 48.0); ++k)
+          EXPECT_NEAR(at(picture, 20, k), at(without, 20, k), 1e-6F) << k;
       }
     }
   }

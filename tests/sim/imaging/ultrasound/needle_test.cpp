@@ -115,9 +115,32 @@ TEST(Needle, ItsTailIsSpacedByWhatItIsMadeOf) {
     ASSERT_GE(line.echoes.size(), 9U);
     for (std::size_t i = 1; i < 9; ++i) {
       EXPECT_NEAR(line.echoes[i].depth_mm - line.echoes[i - 1].depth_mm, spacing_mm, 0.01);
-      EXPECT_NEAR(decibels(line.echoes[i - 1].amplitude / line.echoes[i].amplitude), kTailDbPerLine, 1e-6);
+      EXPECT_NEAR(decibels(line.echoes[i - 1].amplitude / line.echoes[i].amplitude),
+                  inner_mm > 0.0 ? kLumenDbPerLine : kTailDbPerLine, 1e-6);
     }
   }
+}
+
+// Lines from the lumen go as the mirror goes that they come from: nowhere do they end at once.
+TEST(Needle, ItsTailFadesWithItsMirror) {
+  const UltrasoundView view = straight_view();
+  const Scene fluid = all_of(TissueClass::fluid);
+  double last_db = 100.0;
+  for (double tilt_deg = 0.0; tilt_deg < 40.0; tilt_deg += 0.25) {
+    Inserted inserted = needle_at(15.0, 20.0, tilt_deg);
+    inserted.needle->radius_mm = 0.635;
+    inserted.needle->inner_radius_mm = 0.419;
+    const Line line = line_of(fluid, view, 64, inserted);
+    double strongest = 1e-3;  // of the lines from inside: between the shaft and, last, the tip
+    for (const LineEcho& echo : line.echoes)
+      if (echo.depth_mm > line.echoes.front().depth_mm + 0.5) strongest = std::max(strongest, echo.amplitude);
+    const double db = decibels(strongest);
+    if (last_db < 99.0) {
+      EXPECT_LT(last_db - db, last_db > kLeastTailDb + 6.0 ? 3.0 : 40.0) << tilt_deg;
+    }
+    last_db = db;
+  }
+  EXPECT_LT(last_db, kLeastTailDb + 1.0) << "a steep needle has no tail";
 }
 
 TEST(Needle, PosesThatAreNoneShowNothing) {

@@ -287,16 +287,23 @@ TEST(UltrasoundMotion, AFanThatIsAskedHasTheBitsOfAWholeOne) {
   }
 }
 
-// The two sides of a layer run along each other where they were pressed, too.
+// A layer reaches as far to both sides where it was pressed, too.
 TEST(UltrasoundMotion, ALayerThatIsMovedCastsNoShadow) {
   const Scene s = scene([](const glm::dvec3& p) {
     if (p.y < 15.0 + p.x) return TissueClass::muscle;
     return p.y < 30.0 + p.x ? TissueClass::fluid : TissueClass::liver;
   });
   const UltrasoundView view = straight_view(60.0);
-  UltrasoundView old = view;
-  old.sight_law = cases::SightLaw::echo;
-  EXPECT_EQ(moved(s, view, pressed(5.0)).envelope, moved(s, old, pressed(5.0)).envelope);
+  const Inserted none;
+  const TissueAt tissue_at(s.tissue(), none);
+  const std::optional<PictureMotion> motion = motion_of(view, pressed(5.0));
+  ASSERT_TRUE(motion);
+  const LineWalker walker(view, tissue_at, s.volume, none, &*motion);
+  Line line;
+  for (int b = 0; b < view.beams; ++b) {
+    walker.walk(b, true, line);
+    for (const LineEcho& echo : line.echoes) EXPECT_EQ(echo.parting_per_mm, 0.0) << b;
+  }
 }
 
 TEST(UltrasoundMotion, ThreadsDoNotMatter) {
