@@ -82,6 +82,9 @@ int count_sources(const Displacement& displacement) noexcept;
 
 // x of X, in mm.
 glm::dvec3 displaced(const Displacement& displacement, const glm::dvec3& rest_lps_mm) noexcept;
+// Of many, as many as there is room for (CHECKed): the same bits, sooner.
+void displaced(const Displacement& displacement, std::span<const glm::dvec3> rest_lps_mm,
+               std::span<glm::dvec3> now_lps_mm) noexcept;
 
 // X of x. Fixed-point steps first, then Newton's; the defaults are right to 0.001 mm without bone, to 0.3 mm
 // anywhere (docs/decisions/0023).

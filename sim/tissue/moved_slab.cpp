@@ -38,19 +38,24 @@ MovedSlab::MovedSlab(const Displacement& displacement, const SlabPart& part)
   nodes_.reserve(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
                  static_cast<std::size_t>(size_.z));
   const int a = (axis_ + 1) % 3, b = (axis_ + 2) % 3;
-  for (int j = 0; j < size_.y; ++j)
+  std::vector<glm::dvec3> rest_lps_mm, now_lps_mm;  // of a row of columns
+  for (int j = 0; j < size_.y; ++j) {
+    rest_lps_mm.clear();
     for (int i = 0; i < size_.x; ++i)
       for (int l = 0; l < size_.z; ++l) {
-        glm::dvec3 rest_lps_mm;
-        rest_lps_mm[a] = part.low_mm.x + i * part.spacing_mm;
-        rest_lps_mm[b] = part.low_mm.y + j * part.spacing_mm;
+        glm::dvec3& rest = rest_lps_mm.emplace_back();
+        rest[a] = part.low_mm.x + i * part.spacing_mm;
+        rest[b] = part.low_mm.y + j * part.spacing_mm;
         const double height_mm = part.low_mm.z + l * part.layer_mm;
-        rest_lps_mm[axis_] =
-            part.origin_lps_mm[axis_] + (height_mm - part.normal[a] * (rest_lps_mm[a] - part.origin_lps_mm[a]) -
-                                         part.normal[b] * (rest_lps_mm[b] - part.origin_lps_mm[b])) /
-                                            part.normal[axis_];
-        nodes_.push_back(glm::vec4(glm::dvec4(displaced(displacement, rest_lps_mm) - rest_lps_mm, 0.0)));
+        rest[axis_] = part.origin_lps_mm[axis_] + (height_mm - part.normal[a] * (rest[a] - part.origin_lps_mm[a]) -
+                                                   part.normal[b] * (rest[b] - part.origin_lps_mm[b])) /
+                                                      part.normal[axis_];
       }
+    now_lps_mm.resize(rest_lps_mm.size());
+    displaced(displacement, rest_lps_mm, now_lps_mm);
+    for (std::size_t n = 0; n < rest_lps_mm.size(); ++n)
+      nodes_.push_back(glm::vec4(glm::dvec4(now_lps_mm[n] - rest_lps_mm[n], 0.0)));
+  }
 }
 
 glm::dvec3 MovedSlab::slab_of(const glm::dvec3& rest_lps_mm) const noexcept {
@@ -118,6 +123,7 @@ glm::dvec3 MovedSlab::rest_of(const glm::dvec3& at_lps_mm, const glm::dvec3& gue
     glm::dmat3 s;
     sample(rest_mm, moved_mm, s);
     const glm::dvec3 miss_mm = at_lps_mm - moved_mm - rest_mm;
+    if (miss_mm == glm::dvec3(0.0)) break;  // as where nothing moves
     const glm::dvec3 yz = glm::cross(s[1], s[2]);
     // As displacement.glsl.h's: bounded where tissue is all but folded, and no longer than twice the miss.
     const double per_volume = 1.0 / std::max(glm::dot(s[0], yz), 0.05);

@@ -48,13 +48,13 @@ class MovedSlab {
   Range range(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3 (&axes)[3]) const noexcept;
 
   // The four columns around a place and its parts of the way between them; a node's layers lie one after the other.
+  // u there, of a layer, is `down` of the way from beside(0) to beside(1).
   struct Columns {
     const glm::vec4 *low[2], *high[2];  // the first layers
     float right, down;
-    glm::vec3 at(int layer) const noexcept {
-      const glm::vec4 upper = low[0][layer] + right * (low[1][layer] - low[0][layer]),
-                      lower = high[0][layer] + right * (high[1][layer] - high[0][layer]);
-      return glm::vec3(upper + down * (lower - upper));
+    glm::vec3 beside(int side, int layer) const noexcept {
+      const glm::vec4* const* nodes = side == 0 ? low : high;
+      return glm::vec3(nodes[0][layer] + right * (nodes[1][layer] - nodes[0][layer]));
     }
   };
   Columns columns(double x_mm, double y_mm) const noexcept;

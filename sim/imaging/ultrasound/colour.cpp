@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -54,6 +55,42 @@ class Cells {
   const ColourPicture& colour_;
   int beams_;
   std::vector<unsigned char> flows_;  // in one of a cell, the next beam's and those below them
+};
+
+// The number of a cell's angle, by the tangent of half of it, whose arc tangent takes longer than all else of a
+// pixel: from the borders between numbers, of which a bin holds no more than one, and by the arc tangent beside
+// one.
+class NumberOf {
+ public:
+  NumberOf() {
+    for (int i = 0; i < kBins; ++i) {
+      const double share = 2.0 * i / kBins - 1.0;
+      const int below = i == 0 ? kColourStill - kColourSteps : by_arc(share / (1.0 - std::abs(share)));
+      const double half = (below - kColourStill + 0.5) * std::numbers::pi / (2.0 * kColourSteps);
+      bins_[static_cast<std::size_t>(i)] = {below, below == kColourStill + kColourSteps
+                                                       ? std::numeric_limits<double>::infinity()
+                                                       : base::exact_sin(half) / base::exact_cos(half)};
+    }
+  }
+  int operator()(double tangent) const {
+    const double share = tangent / (1.0 + std::abs(tangent));
+    const int bin = std::min(static_cast<int>(0.5 * kBins * (share + 1.0)), kBins - 1);
+    const Bin& at = bins_[static_cast<std::size_t>(bin)];
+    if (std::abs(tangent - at.border) <= 1e-9 * (1.0 + std::abs(tangent))) return by_arc(tangent);
+    return at.below + (tangent > at.border ? 1 : 0);
+  }
+  static int by_arc(double tangent) {
+    return kColourStill +
+           static_cast<int>(std::lround(kColourSteps * (2.0 / std::numbers::pi * base::exact_atan(tangent))));
+  }
+
+ private:
+  static constexpr int kBins = 1024;
+  struct Bin {
+    int below = 0;        // at its lower end
+    double border = 0.0;  // to the next number
+  };
+  std::array<Bin, kBins> bins_;
 };
 
 }  // namespace
@@ -114,7 +151,7 @@ void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const 
   if (flow.empty()) return;
   const TissueAt tissue_at(tissue, inserted);
   const Fan fan = fan_of(view);
-  const auto motion = motion_of(view, displacement);
+  const auto motion = motion_of(view, displacement, PictureMotion::Asides::left_out);
   const PictureMotion* moving = motion ? &*motion : nullptr;
   const LineWalker walker(view, tissue_at, *tissue.volume, inserted, moving);
   const double blood_db = acoustic_table()[static_cast<std::size_t>(volume::TissueClass::vessel)].scatter_db;
@@ -143,7 +180,8 @@ void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const 
       const double towards_mm_s = -glm::dot(flow.velocity_mm_s(rest, t_s), direction);
       if (towards_mm_s == 0.0) continue;
       Line& line = lines[static_cast<std::size_t>(near)];
-      if (line.loss_db.empty()) walker.walk(near, beam_touches(view, depth_below_skin_mm, near), line);
+      if (line.loss_db.empty())
+        walker.walk(near, beam_touches(view, depth_below_skin_mm, near), line, LineWalker::Echoes::left_out);
       const auto sample = std::min(static_cast<std::size_t>(depth_mm / fan.sample_mm), line.loss_db.size() - 1);
       const double heard = std::clamp(
           (blood_db - static_cast<double>(line.loss_db[sample]) - kColourNoiseDb) / kColourSureDb, 0.0, 1.0);
@@ -167,6 +205,7 @@ void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs
   };
   const double row_mm = (colour.box.to_mm - colour.box.from_mm) / rows;
   const Cells cells(colour);
+  static const NumberOf number_of;
   numbers.assign(at(0, height), kNoColour);
   std::vector<unsigned char> inside(numbers.size(), 0);
   for (int r = 0; r < height; ++r)
@@ -182,14 +221,17 @@ void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs
       const double sure = std::sqrt(mean->x * mean->x + mean->y * mean->y);
       if (sure < kColourShown) continue;
       // Half the angle, whose tangent has no second meaning.
-      const double share = 2.0 / std::numbers::pi * base::exact_atan(mean->y / std::max(sure + mean->x, 1e-12));
-      numbers[at(c, r)] = static_cast<unsigned char>(kColourStill + std::lround(kColourSteps * share));
+      numbers[at(c, r)] = static_cast<unsigned char>(number_of(mean->y / std::max(sure + mean->x, 1e-12)));
     }
-  for (int r = 1; r + 1 < height; ++r)
-    for (int c = 1; c + 1 < width; ++c)
-      if (inside[at(c, r)] != 0 &&
-          (inside[at(c - 1, r)] & inside[at(c + 1, r)] & inside[at(c, r - 1)] & inside[at(c, r + 1)]) == 0)
-        numbers[at(c, r)] = kColourEdge;
+  for (int r = 1; r + 1 < height; ++r) {
+    const unsigned char *row = inside.data() + at(0, r), *above = inside.data() + at(0, r - 1),
+                        *below = inside.data() + at(0, r + 1);
+    unsigned char* number = numbers.data() + at(0, r);
+    for (int c = 1; c + 1 < width; ++c) {
+      const bool edge = row[c] > (row[c - 1] & row[c + 1] & above[c] & below[c]);
+      number[c] = edge ? kColourEdge : number[c];
+    }
+  }
   if (knobs.flip)
     for (int r = 0; r < height; ++r)
       std::reverse(numbers.begin() + static_cast<std::ptrdiff_t>(at(0, r)),

@@ -110,7 +110,8 @@ Compounder::Compounder(const UltrasoundView& view) : view_(view) {
           continue;
         const int near = std::min(static_cast<int>(at.beam), view.beams - 2),
                   upper = std::min(static_cast<int>(sample), view.samples - 2);
-        source.at = near * view.samples + upper;
+        source.near = static_cast<std::int16_t>(near);
+        source.upper = static_cast<std::int16_t>(upper);
         source.beam = static_cast<float>(at.beam - near);
         source.sample = static_cast<float>(sample - upper);
         const double level = shaders::us_later(loss_db_mm, at.depth_mm, depth_mm);
@@ -142,11 +143,11 @@ void Compounder::mean(const UltrasoundView& view, std::span<const Look, kLooks> 
       float sum = here[k] * here[k], count = 1.0F;
       for (std::size_t i = 1; i < touches.size(); ++i) {
         const Source& source = sources_[i - 1][static_cast<std::size_t>(b) * samples + k];
-        if (source.at < 0) continue;
-        const auto near = static_cast<std::size_t>(source.at) / samples;
+        if (source.near < 0) continue;
+        const auto near = static_cast<std::size_t>(source.near);
         if ((touches[i][near] & touches[i][near + 1]) == 0) continue;
         // Power, and not amplitude, so that what lies between samples has the same mean.
-        const float* first = looks[i].picture.envelope.data() + source.at;
+        const float* first = looks[i].picture.envelope.data() + near * samples + source.upper;
         const float* second = first + samples;
         const float above = first[0] * first[0] + source.beam * (second[0] * second[0] - first[0] * first[0]);
         const float below = first[1] * first[1] + source.beam * (second[1] * second[1] - first[1] * first[1]);

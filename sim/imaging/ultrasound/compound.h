@@ -47,7 +47,7 @@ class Compounder {
  private:
   // Where a sample of the middle look lies in one from the side: between which beams and samples.
   struct Source {
-    std::int32_t at = -1;                            // −1: nowhere
+    std::int16_t near = -1, upper = 0;               // the ones before; a beam of −1: nowhere
     float beam = 0.0F, sample = 0.0F, level = 0.0F;  // level: what loss makes of it
   };
   UltrasoundView view_;

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
+#include "sim/base/clones.h"
 #include "sim/base/rows.h"
 #include "sim/imaging/float_math.h"
 #include "sim/imaging/noise.h"
@@ -16,14 +18,20 @@ namespace seldinger::imaging {
 
 namespace {
 
-// Of this mean square, in one of 256 directions, of a Rayleigh length of 24 bits.
-void add_noise(NoiseKey key, std::size_t i, float mean_square, PolarPicture& picture) {
-  const std::uint32_t bits = noise_bits(key, static_cast<std::uint32_t>(i));
-  const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 8)) + 0.5F) * 0x1.0p-24F;
-  const float length = std::sqrt(-mean_square * float_log(u));
-  const auto& [cosine, sine] = phases()[4 * (bits & 255U)];
-  const float re = picture.envelope[i] + length * cosine, im = length * sine;
-  picture.envelope[i] = std::sqrt(re * re + im * im);
+// Of mean squares, sample by sample from one on: in one of 256 directions, of a Rayleigh length of 24 bits.
+SELDINGER_FOR_AVX2_TOO
+void add_noise(NoiseKey key, std::size_t first, std::span<const float> mean_square, float* envelope) noexcept {
+  const std::array<float, 2>* const directions = phases().data();
+  const float* const squares = mean_square.data();
+  const auto count = static_cast<std::uint32_t>(mean_square.size()), number = static_cast<std::uint32_t>(first);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t bits = noise_bits(key, number + i);
+    const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 8)) + 0.5F) * 0x1.0p-24F;
+    const float length = std::sqrt(-squares[i] * float_log(u));
+    const std::array<float, 2>& direction = directions[4 * (bits & 255U)];
+    const float re = envelope[i] + length * direction[0], im = length * direction[1];
+    envelope[i] = std::sqrt(re * re + im * im);
+  }
 }
 
 }  // namespace
@@ -41,8 +49,10 @@ double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs,
 
 void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture) {
   const NoiseKey key = noise_key(seed, frame);
-  const float mean_square = static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0));
-  for (std::size_t i = 0; i < picture.envelope.size(); ++i) add_noise(key, i, mean_square, picture);
+  const std::vector<float> mean_square(static_cast<std::size_t>(picture.samples),
+                                       static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0)));
+  for (std::size_t first = 0; first < picture.envelope.size(); first += mean_square.size())
+    add_noise(key, first, mean_square, picture.envelope.data() + first);
 }
 
 double clutter_db(const UltrasoundView& view, double depth_mm) noexcept {
@@ -62,7 +72,7 @@ void add_clutter(const UltrasoundView& view, std::span<const float> depth_below_
   base::over_rows(view.beams, view.threads, [&](int b) {
     if (!beam_touches(view, depth_below_skin_mm, b)) return;
     const std::size_t first = static_cast<std::size_t>(b) * samples;
-    for (std::size_t k = 0; k < samples; ++k) add_noise(key, first + k, mean_square[k], picture);
+    add_noise(key, first, mean_square, picture.envelope.data() + first);
   });
 }
 
@@ -84,6 +94,8 @@ ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
       sample_mm_(fan_of(view).sample_mm),
       screen_(screen_of(view, size)) {
   CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
+  constexpr int kMost = std::numeric_limits<std::int16_t>::max();
+  CHECK(view.beams <= kMost && view.samples <= kMost);
   sources_.resize(static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
   std::size_t pixel = 0;
   for (int r = 0; r < size.height_px; ++r)
@@ -99,17 +111,9 @@ ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
       const auto share = [](double fraction) {
         return static_cast<std::uint16_t>(std::min(65535.0, std::floor(fraction * 65536.0)));
       };
-      sources_[pixel] = {b * view.samples + k, share(beam - b), share(sample - k)};
+      sources_[pixel] = {static_cast<std::int16_t>(b), static_cast<std::int16_t>(k), share(beam - b),
+                         share(sample - k)};
     }
-}
-
-std::optional<BeamAndDepth> ScanConverter::place(int column, int row) const noexcept {
-  const Source& source = sources_[static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.width_px) +
-                                  static_cast<std::size_t>(column)];
-  if (source.at < 0) return std::nullopt;
-  constexpr double kShare = 1.0 / 65536.0;
-  return BeamAndDepth{source.at / samples_ + kShare * source.beam_65536,
-                      (source.at % samples_ + kShare * source.sample_65536 + 0.5) * sample_mm_};
 }
 
 void ScanConverter::grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,
@@ -129,10 +133,10 @@ void ScanConverter::grey(const UltrasoundView& view, const UltrasoundKnobs& knob
     const Source* source = sources_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size_.width_px);
     unsigned char* row = grey.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size_.width_px);
     for (int c = 0; c < size_.width_px; ++c) {
-      if (source[c].at < 0) continue;
+      if (source[c].beam < 0) continue;
       const float down = source[c].down();
       const float level = source[c].level(envelope, samples_);
-      const int k = source[c].at % samples_;
+      const int k = source[c].sample;
       const float db = 8.6858896F * float_log(std::max(level, 1e-10F)) + gain[static_cast<std::size_t>(k)] +
                        down * (gain[static_cast<std::size_t>(k) + 1] - gain[static_cast<std::size_t>(k)]);
       const float value = (db - black) * per_db;
@@ -150,7 +154,7 @@ std::vector<float> ScanConverter::envelope_db(const PolarPicture& polar) const {
   CHECK(polar.beams == beams_ && polar.samples == samples_);
   std::vector<float> db(sources_.size(), kLeastDb);
   for (std::size_t i = 0; i < sources_.size(); ++i)
-    if (sources_[i].at >= 0) db[i] = level_db_of(sources_[i].level(polar.envelope.data(), samples_));
+    if (sources_[i].beam >= 0) db[i] = level_db_of(sources_[i].level(polar.envelope.data(), samples_));
   return db;
 }
 

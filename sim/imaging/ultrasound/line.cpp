@@ -7,6 +7,7 @@
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/mirror.h"
+#include "sim/imaging/ultrasound/view/tissue_along.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
@@ -48,6 +49,7 @@ LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, co
       needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
       motion_(motion),
       frequency_mhz_(working_mhz(view)) {
+  for (int k = 0; k < view.samples; ++k) depths_mm_.push_back((k + 0.5) * fan_.sample_mm);
   for (const Neighbour& n : around_) least_side_mm_ += shaders::kUsLeastSide * n.weight * glm::length(n.offset_mm);
   for (std::size_t i = 0; i < table_.size(); ++i) {
     loss_db_mm_[i] =
@@ -105,7 +107,7 @@ LineWalker::Plane LineWalker::plane_at(const glm::dvec3& p_lps_mm, double before
   return plane;
 }
 
-void LineWalker::walk(int beam, bool contact, Line& line) const {
+void LineWalker::walk(int beam, bool contact, Line& line, Echoes echoes) const {
   const auto count = static_cast<std::size_t>(view_.samples);
   line.tissue.resize(count);
   line.loss_db.assign(count, static_cast<float>(kUsDeadDb));
@@ -120,7 +122,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   }
   const BeamPath path = path_of(fan_, motion_, beam);
   const double dz = fan_.sample_mm;
-  for (std::size_t k = 0; k < count; ++k) line.tissue[k] = tissue_at_(path.at((static_cast<double>(k) + 0.5) * dz));
+  tissue_along(path, tissue_at_, depths_mm_, line.tissue);
   // Gel, unless there is gas beyond what a blurred skin can be; also past a corner of air that a slanted beam
   // clips.
   std::size_t first = 0;
@@ -131,7 +133,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   const NeedleLine needle = needle_line(beam);
   double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
   bool needle_above = false;
-  const bool edges = shows_artefacts(view_);
+  const bool edges = shows_artefacts(view_) && echoes == Echoes::found;
   std::optional<std::size_t> entered;  // the sample behind the last interface that is heard
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);
@@ -149,7 +151,8 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
           shaders::us_is_matched(mrayl))
         lens = {static_cast<double>(k - *entered) * dz, shift_per_mm_[static_cast<std::size_t>(line.tissue[k - 1])],
                 shift_per_mm_[tissue], *entered, line.tissue[k - 1]};
-      add_interface(path, static_cast<int>(k), before_mrayl, mrayl, sum_db, lens, line);
+      if (echoes == Echoes::found)
+        add_interface(path, static_cast<int>(k), before_mrayl, mrayl, sum_db, lens, line);
       if (k == 0 || shaders::us_is_heard(reflection)) entered = k;
       sum_db += shaders::us_step_loss_db(reflection);
       before_mrayl = mrayl;

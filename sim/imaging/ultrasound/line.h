@@ -58,7 +58,8 @@ class LineWalker {
   // What it is given outlives it. `motion`: of tissue that moves; else null.
   LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const volume::Volume& volume,
              const Inserted& inserted, const PictureMotion* motion = nullptr);
-  void walk(int beam, bool contact, Line& line) const;
+  enum class Echoes { found, left_out };  // whoever asks for tissue and loss alone need not wait for them
+  void walk(int beam, bool contact, Line& line, Echoes echoes = Echoes::found) const;
 
   // What a walk elsewhere (ultrasound_gpu) needs.
   struct Neighbour {
@@ -116,6 +117,7 @@ class LineWalker {
   const NeedlePose* needle_;
   const PictureMotion* motion_;
   double frequency_mhz_;
+  std::vector<double> depths_mm_;  // of the samples
 };
 
 }  // namespace seldinger::imaging

@@ -315,9 +315,9 @@ TEST(Causes, TogetherComeBackFromWhereTheyWent) {
   EXPECT_LT(std::sqrt(squares / kPlaces), 0.15);
 }
 
-// Many places side by side, a few beyond the last whole group, with every kind of source and with organs that
-// slide.
-TEST(Causes, ManyPlacesComeBackByTheBitsOfEach) {
+// Many places side by side, so many beyond the last whole group as there can be, with every kind of source and with
+// organs that slide.
+TEST(Causes, ManyPlacesGoAndComeBackByTheBitsOfEach) {
   std::array<SkinPress, 2> presses;
   std::array<SqueezedVein, 11> veins;
   const Causes causes = everything(presses, veins);
@@ -331,13 +331,16 @@ TEST(Causes, ManyPlacesComeBackByTheBitsOfEach) {
                              displacement_of({.presses = presses, .breath = slides}), Displacement{}};
   base::Rng rng(8);
   for (const Displacement& displacement : of)
-    for (const std::size_t count : {0U, 1U, 7U, 8U, 1003U}) {
+    for (const std::size_t count : {0U, 1U, 2U, 4U, 5U, 7U, 8U, 9U, 11U, 1003U}) {
       std::vector<glm::dvec3> at(count), rest(count);
       for (glm::dvec3& p : at)
         p = {200.0 * rng.uniform() - 100.0, 200.0 * rng.uniform() - 110.0, -200.0 * rng.uniform()};
       rest_of(displacement, at, 4, rest);
       for (std::size_t i = 0; i < count; ++i)
         ASSERT_EQ(rest[i], rest_of(displacement, at[i], {.fixed_point = 4, .newton = 0})) << i << " of " << count;
+      displaced(displacement, at, rest);
+      for (std::size_t i = 0; i < count; ++i)
+        ASSERT_EQ(rest[i], displaced(displacement, at[i])) << i << " of " << count;
     }
 }
 

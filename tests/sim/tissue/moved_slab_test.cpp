@@ -69,8 +69,10 @@ TEST(MovedSlab, IsRightBetweenItsNodesAndBetterTheFinerItIs) {
       const double layer = (in.z - part.low_mm.z) / part.layer_mm;
       const int below = static_cast<int>(layer);
       const auto columns = slab.columns(in.x, in.y);
-      const glm::vec3 u =
-          columns.at(below) + static_cast<float>(layer - below) * (columns.at(below + 1) - columns.at(below));
+      const auto at = [&](int one) {
+        return columns.beside(0, one) + columns.down * (columns.beside(1, one) - columns.beside(0, one));
+      };
+      const glm::vec3 u = at(below) + static_cast<float>(layer - below) * (at(below + 1) - at(below));
       ASSERT_LT(glm::length(glm::dvec3(u) - slab.moved_mm(rest)), 1e-4);
     }
     const double rms = std::sqrt(squares / kPlaces);

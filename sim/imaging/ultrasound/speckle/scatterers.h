@@ -46,6 +46,9 @@ class ScattererField final : public SpeckleField {
     glm::dvec3 start_lps_mm, axes[3];
     glm::dvec3 center_mm, half_mm;                      // of the box, in the frame; around centres of cubes
     glm::dvec3 center_lps_mm, center_cell, half_cells;  // the same in LPS, and in cubes' numbers
+    glm::dvec3 lps_mm(const glm::dvec3& in_frame) const noexcept {
+      return start_lps_mm + in_frame.x * axes[0] + in_frame.y * axes[1] + in_frame.z * axes[2];
+    }
     int inner;  // the lattice's axis most across the picture: its rows are short and few are empty
   };
   Tile tile(const Band& band, double middle, double beams_half) const noexcept;
@@ -60,6 +63,9 @@ class ScattererField final : public SpeckleField {
   class BandWriter;
   void add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const;
   void to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& high_mm) const noexcept;
+  tissue::MovedSlab::Range moved_in(const Tile& tile, const glm::dvec3& low_mm,
+                                    const glm::dvec3& high_mm) const noexcept;
+  bool lies_still(const Tile& tile) const noexcept;
 
   const UltrasoundView& view_;
   const TissueAt& tissue_at_;

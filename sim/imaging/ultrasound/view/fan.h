@@ -37,6 +37,8 @@ bool is_shown(const cases::Lesion& lesion) noexcept;  // drawn over the volume: 
 // are.
 bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept;
 
+struct SideBySide;
+
 // Tissue at points; outside the volume there is air.
 class TissueAt {
  public:
@@ -46,6 +48,7 @@ class TissueAt {
     const std::int64_t at = voxel_at(p_lps_mm);
     return at < 0 ? volume::TissueClass::air : classes_[at];
   }
+  void of(SideBySide& places, std::span<volume::TissueClass> tissue) const noexcept;  // of many (tissue_along.h)
   // Amplitude of the speckle, 1 for liver.
   float speckle(const glm::dvec3& p_lps_mm) const noexcept {
     if (const Part* part = lesion_at(p_lps_mm)) return part->amplitude;

@@ -172,12 +172,16 @@ double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcep
                             glm::dot(normal, low.out + part * (high.out - low.out)));
 }
 
-PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement)
+PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement, Asides asides)
     : slab_(displacement, part_of(view, fan_of(view), beside_of(view, fan_of(view)), displacement)),
       fan_(view, spacing_mm(view, kFanNodesADepth), beside_of(view, fan_of(view)),
            [this](const glm::dvec3& at_lps_mm, const glm::dvec3& guess_lps_mm) {
              return slab_.rest_of(at_lps_mm, guess_lps_mm);
            }) {
+  if (asides == Asides::found) find_aside(view);
+}
+
+void PictureMotion::find_aside(const UltrasoundView& view) {
   const Fan fan = fan_of(view);
   aside_.reserve(fan_.back_mm().size());
   for (int row = 0; row < fan_.rows(); ++row) {
@@ -199,6 +203,7 @@ PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacem
 }
 
 std::vector<BeamPath::Aside> PictureMotion::aside_of(double beam) const {
+  if (aside_.empty()) return {};
   const RestFan::Between rows = fan_.between(beam);
   const BeamPath::Aside* low = aside_.data() + static_cast<std::ptrdiff_t>(rows.row) * fan_.depths();
   const BeamPath::Aside* high = low + fan_.depths();
@@ -221,9 +226,10 @@ void PictureMotion::append_path(double beam, std::vector<glm::vec4>& list) const
       list.push_back(glm::vec4(glm::dvec4(value, 0.0)));
 }
 
-std::optional<PictureMotion> motion_of(const UltrasoundView& view, const tissue::Displacement& displacement) {
+std::optional<PictureMotion> motion_of(const UltrasoundView& view, const tissue::Displacement& displacement,
+                                       PictureMotion::Asides asides) {
   if (tissue::count_sources(displacement) == 0) return std::nullopt;
-  return std::optional<PictureMotion>(std::in_place, view, displacement);
+  return std::optional<PictureMotion>(std::in_place, view, displacement, asides);
 }
 
 }  // namespace seldinger::imaging

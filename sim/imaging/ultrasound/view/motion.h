@@ -14,6 +14,8 @@
 
 namespace seldinger::imaging {
 
+struct SideBySide;
+
 // A beam's way through tissue at rest. Without nodes tissue lies still, and it is straight.
 class BeamPath {
  public:
@@ -43,6 +45,7 @@ class BeamPath {
     const std::size_t node = node_at(nodes);
     return p + back_mm_[node] + (nodes - static_cast<double>(node)) * (back_mm_[node + 1] - back_mm_[node]);
   }
+  void at(SideBySide& depths) const noexcept;  // of many depths (tissue_along.h)
   // How X goes on with depth, mm a mm.
   glm::dvec3 along(double depth_mm) const noexcept {
     if (back_mm_.empty()) return direction_;
@@ -124,7 +127,9 @@ class RestFan {
 
 class PictureMotion {
  public:
-  PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement);
+  enum class Asides { found, left_out };  // whoever asks for no interface need not wait for it
+  PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement,
+                Asides asides = Asides::found);
 
   const tissue::MovedSlab& slab() const noexcept { return slab_; }
   BeamPath path(double beam) const;
@@ -135,15 +140,17 @@ class PictureMotion {
   void append_path(double beam, std::vector<glm::vec4>& list) const;
 
  private:
+  void find_aside(const UltrasoundView& view);
   std::vector<BeamPath::Aside> aside_of(double beam) const;
 
   tissue::MovedSlab slab_;
   RestFan fan_;
-  std::vector<BeamPath::Aside> aside_;  // at the fan's nodes
+  std::vector<BeamPath::Aside> aside_;  // at the fan's nodes, or none
 };
 
 // Nothing where nothing moves.
-std::optional<PictureMotion> motion_of(const UltrasoundView& view, const tissue::Displacement& displacement);
+std::optional<PictureMotion> motion_of(const UltrasoundView& view, const tissue::Displacement& displacement,
+                                       PictureMotion::Asides asides = PictureMotion::Asides::found);
 
 inline BeamPath path_of(const Fan& fan, const PictureMotion* motion, double beam) {
   return motion == nullptr ? BeamPath(fan.start_lps_mm(beam), fan.direction(beam)) : motion->path(beam);

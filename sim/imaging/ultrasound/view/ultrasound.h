@@ -158,7 +158,14 @@ class ScanConverter {
   double pixel_mm() const noexcept { return screen_.pixel_mm; }
   double top_mm() const noexcept { return screen_.top_mm; }
   // Of a pixel that is never flipped; nothing outside the field. From the first beam's middle to the last's.
-  std::optional<BeamAndDepth> place(int column, int row) const noexcept;
+  std::optional<BeamAndDepth> place(int column, int row) const noexcept {
+    const Source& source = sources_[static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.width_px) +
+                                    static_cast<std::size_t>(column)];
+    if (source.beam < 0) return std::nullopt;
+    constexpr double kShare = 1.0 / 65536.0;
+    return BeamAndDepth{source.beam + kShare * source.beam_65536,
+                        (source.sample + kShare * source.sample_65536 + 0.5) * sample_mm_};
+  }
 
   // Grey, 0 outside the field; the envelope is interpolated, then its logarithm taken. NaN shows as 255.
   void grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,
@@ -169,12 +176,12 @@ class ScanConverter {
 
  private:
   struct Source {
-    std::int32_t at = -1;  // of the sample before in the beam before; −1: outside the field
-    std::uint16_t beam_65536 = 0, sample_65536 = 0;
+    std::int16_t beam = -1, sample = 0;              // the ones before; a beam of −1: outside the field
+    std::uint16_t beam_65536 = 0, sample_65536 = 0;  // of the way to the next
     float down() const noexcept { return static_cast<float>(sample_65536) * (1.0F / 65536.0F); }
     // The envelope between two beams and two samples.
     float level(const float* envelope, int samples) const noexcept {
-      const float* near = envelope + at;
+      const float* near = envelope + static_cast<std::ptrdiff_t>(beam) * samples + sample;
       const float* far = near + samples;
       const float across = static_cast<float>(beam_65536) * (1.0F / 65536.0F);
       const float above = near[0] + across * (far[0] - near[0]), below = near[1] + across * (far[1] - near[1]);

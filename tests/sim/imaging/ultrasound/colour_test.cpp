@@ -174,6 +174,33 @@ TEST(ColourDoppler, NeedsAFaceThatTouchesAndSoundThatGetsThere) {
   EXPECT_LT(colour_of(under_bone, one, 300.0).sure(), 0.5);
 }
 
+TEST(ColourDoppler, EachSpeedHasItsNumber) {
+  const UltrasoundView view = straight_view(40.0);
+  const ScanConverter converter(view, {40, 40, 0.0});
+  ColourPicture picture;
+  picture.box = colour_box(view, {});
+  picture.rows = 2;
+  std::vector<unsigned char> numbers;
+  std::array<int, 256> met{};
+  for (int i = -4000; i <= 4000; ++i) {
+    const double share = i / 4000.3;  // of the scale
+    const double angle = std::numbers::pi * share;
+    picture.cells.assign(static_cast<std::size_t>(2 * (picture.box.end_beam - picture.box.first_beam)),
+                         glm::vec2(0.8 * std::cos(angle), 0.8 * std::sin(angle)));
+    colour_numbers(converter, {}, picture, numbers);
+    const int number = numbers[static_cast<std::size_t>(40 * 20 + 8)],
+              expected = kColourStill + static_cast<int>(std::lround(kColourSteps * share));
+    const double beside =
+        kColourSteps * share + 0.5 - std::floor(kColourSteps * share + 0.5);  // cells are in float
+    if (std::min(beside, 1.0 - beside) > 1e-4) {
+      ASSERT_EQ(number, expected) << share;
+    }
+    ++met[static_cast<std::size_t>(number)];
+  }
+  for (int number = kColourStill - kColourSteps; number <= kColourStill + kColourSteps; ++number)
+    EXPECT_GT(met[static_cast<std::size_t>(number)], 0) << number;
+}
+
 TEST(ColourDoppler, IsDrawnWithinItsBoxAndVessel) {
   const cases::Structure one = vessel("portal_vein", -axis_at(40.0));
   cases::ConsoleSetting console;

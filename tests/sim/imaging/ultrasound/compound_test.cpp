@@ -221,7 +221,8 @@ TEST(CompoundTruth, ANeedleHasTheMeanOfItsLooks) {
 }
 
 // What is told of a needle walks down no more beams than it needs: the answer is that of all looks, place by place,
-// in tissue of every level, beside bone, by every law, of tissue that lies still and that moves.
+// in tissue of every level, beside bone, by every law, in one look and in three, of tissue that lies still and that
+// is pressed, breathed and dragged.
 TEST(CompoundTruth, IsToldByAFewLooksAsByAll) {
   const Scene s = scene([](const glm::dvec3& p) {
     if (std::abs(p.x + 12.0) < 2.0 && p.y > 8.0 && p.y < 12.0) return TissueClass::bone;
@@ -230,12 +231,23 @@ TEST(CompoundTruth, IsToldByAFewLooksAsByAll) {
   });
   const std::array<tissue::SkinPress, 1> press{
       {{.at_lps_mm = {0, 0, 0}, .inward = {0, 1, 0}, .radius_mm = 20.0, .depth_mm = 5.0}}};
-  const tissue::Displacement still{}, pressed = tissue::displacement_of({.presses = press});
+  const tissue::NeedleDrag drag{.entry_lps_mm = {-20, 0, 0},
+                                .direction = glm::normalize(glm::dvec3(1, 1, 0)),
+                                .cut_mm = 30.0,
+                                .tip_n = 1.0,
+                                .tip_mm = 1.5,
+                                .shaft_mm = 1.5};
+  const tissue::Breath breath{{.back_y_mm = 200.0, .dome_z_mm = 10.0}, {2.0, 6.0, 9.0}};
+  const std::array<tissue::Displacement, 3> moved{
+      tissue::Displacement{}, tissue::displacement_of({.presses = press}),
+      tissue::displacement_of({.presses = press, .needle = drag, .breath = breath})};
   base::Rng rng(22);
-  int seen = 0, hidden = 0;
-  for (int i = 0; i < 300; ++i) {
-    UltrasoundView view = compounded(i % 2 == 0 ? straight_view(40.0) : curved_view(60.0));
-    view.sight_law = static_cast<cases::SightLaw>(i % static_cast<int>(cases::kSightLawNames.size()));
+  std::array<int, 2> seen{}, hidden{};  // in one look, and in three
+  for (int i = 0; i < 400; ++i) {
+    UltrasoundView view = i % 2 == 0 ? straight_view(40.0) : curved_view(60.0);
+    const bool three = i % 4 < 3;
+    if (three) view = compounded(view);
+    view.sight_law = static_cast<cases::SightLaw>((i / 4) % static_cast<int>(cases::kSightLawNames.size()));
     std::vector<float> below(128, 0.0F);
     if (i % 5 == 0) std::fill(below.begin() + 70, below.end(), -3.0F);
     const double tilt = 1.3 * rng.uniform();
@@ -244,12 +256,12 @@ TEST(CompoundTruth, IsToldByAFewLooksAsByAll) {
     inserted.needle->tip_lps_mm = {30.0 * rng.uniform() - 10.0, 8.0 + 30.0 * rng.uniform(), 2.0 * rng.uniform()};
     inserted.needle->direction = {std::cos(tilt), std::sin(tilt), 0.0};
     inserted.needle->length_mm = 20.0;
-    const tissue::Displacement& displacement = i % 3 == 0 ? pressed : still;
+    const tissue::Displacement& displacement = moved[static_cast<std::size_t>(i % 3)];
     double told_mm = 0.0;
     for (double behind_mm = 1.0; behind_mm < 20.0; behind_mm += kShaftStepMm) {
       const bool shows = needle_level(s.tissue(), view, inserted, below, behind_mm, displacement).stands_out();
       told_mm += shows ? kShaftStepMm : 0.0;
-      ++(shows ? seen : hidden);
+      ++(shows ? seen : hidden)[three ? 1 : 0];
     }
     const UltrasoundVisible told = ultrasound_visible(s.tissue(), view, inserted, below, displacement);
     EXPECT_NEAR(told.visible.needle_length_mm, told_mm, 1e-9) << i;
@@ -257,8 +269,10 @@ TEST(CompoundTruth, IsToldByAFewLooksAsByAll) {
     const bool by_echo = view.sight_law != cases::SightLaw::half_slice;  // by that one within the slice, too
     EXPECT_EQ(by_echo && told.visible.needle_tip, by_echo && tip.stands_out()) << i;
   }
-  EXPECT_GT(seen, 300);
-  EXPECT_GT(hidden, 300);
+  for (const std::size_t three : {0U, 1U}) {
+    EXPECT_GT(seen[three], 100);
+    EXPECT_GT(hidden[three], 100);
+  }
 }
 
 }  // namespace

@@ -99,6 +99,36 @@ TEST(UltrasoundMotion, WhatMovesAsOneIsSeenAsByAProbeThatMovesTheOtherWay) {
     }
 }
 
+// A short vessel that is squeezed moves nothing beyond its ends: there scatterers are laid by the bits of tissue
+// that lies still.
+TEST(UltrasoundMotion, WhereNothingMovesScatterersLieAsInAStillPicture) {
+  const Scene s = layers();
+  const TissueAt tissue_at(s.tissue(), {});
+  const tissue::SqueezedVein vein{
+      .from_lps_mm = {-14.0, 22.0, 0.0}, .to_lps_mm = {-6.0, 22.0, 0.0}, .radius_mm = 3.0, .area_share = 0.6};
+  const tissue::Displacement squeezed = tissue::displacement_of({.veins = {&vein, 1}});
+  for (UltrasoundView view : {curved_view(100.0), straight_view(45.0)}) {
+    view.beams = 64;
+    view.samples = 700;
+    const auto motion = motion_of(view, squeezed);
+    ASSERT_TRUE(motion.has_value());
+    const ScattererField lying(view, tissue_at), moving(view, tissue_at, &*motion);
+    std::vector<std::int32_t> of_lying, of_moving;
+    int alike = 0, other = 0;
+    for (int b = 0; b < view.beams; b += 4) {
+      lying.add_beams(b, b + 4, of_lying);
+      moving.add_beams(b, b + 4, of_moving);
+      const double left_mm = std::min(point_of(view, b, 0.0).x, point_of(view, b + 3, 0.0).x);
+      if (left_mm > 4.0) {
+        EXPECT_EQ(of_lying, of_moving) << view.probe.name << ' ' << b;
+      }
+      ++(of_lying == of_moving ? alike : other);
+    }
+    EXPECT_GT(alike, 4) << view.probe.name;
+    EXPECT_GT(other, 2) << view.probe.name;
+  }
+}
+
 TEST(UltrasoundMotion, ATurnedProbeSeesItToo) {
   const Scene s = layers();
   const glm::dvec3 u(2.0, -1.0, 5.0);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shaders/shared/ultrasound.glsl.h"
+#include "sim/case/case.h"
 
 namespace seldinger::imaging {
 namespace {
