@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/fixtures/answers.h"
-#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
@@ -221,7 +220,10 @@ TEST_F(AuthoringCommands, WrongUseIsTwo) {
 TEST(GradedCases, AllEightAreMadeOfBuiltInPatientsPublishedAndHit) {
   const auto scratch = fixtures::fresh_folder("graded_cases");
   const std::string library = (scratch / "library").string();
-  const Json made = fixtures::demo_library("--cases", library);
+  const std::string command = kProgram + " demo --cases --json --library '" + library + "'";
+  const auto ran = run(command, scratch);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json made = Json::parse(ran.out);
   ASSERT_EQ(made.at("cases").size(), 8U);
   for (const Json& one : made.at("cases")) {
     EXPECT_EQ(one.at("state"), "published") << "checked: each has a free path from the skin";
@@ -238,7 +240,7 @@ TEST(GradedCases, AllEightAreMadeOfBuiltInPatientsPublishedAndHit) {
     EXPECT_GT(*fixtures::metric(attempt, "clearance_min"), 0.0) << one.at("title");
     EXPECT_LT(*fixtures::metric(attempt, "clearance_min"), 12.0) << one.at("title");
   }
-  const auto again = run(kProgram + " demo --cases --json --library '" + library + "'", scratch);
+  const auto again = run(command, scratch);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   const Json second = Json::parse(again.out);
   EXPECT_EQ(second.at("cases"), made.at("cases")) << "nothing is made twice";
