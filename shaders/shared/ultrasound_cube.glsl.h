@@ -1,5 +1,5 @@
-// Where in its cube of the lattice a scatterer lies, of which voxel it is, and how a tile of the picture sees it. In
-// float in both languages: the CPU does eight at a time.
+// Where in its cube of the lattice a scatterer lies, of which voxel it is, and how a tile of the picture sees it.
+// In float in both languages: the CPU does eight at a time.
 #ifndef SELDINGER_SHADERS_SHARED_ULTRASOUND_CUBE
 #define SELDINGER_SHADERS_SHARED_ULTRASOUND_CUBE
 
@@ -19,9 +19,9 @@ SHARED float us_cube_w(uint bits) {
   return (float(int(bits & 2047u)) + 0.5F) * (1.0F / 2048.0F);
 }
 
-// A scatterer is of the voxel so many voxels beside it, along each axis: a triangle from −1 to 1, of ten bits. So the
-// mean of what they send back goes from voxel to voxel as a quadratic B-spline, and what the CT tells by voxels has no
-// stairs. Fixed to the scatterer, so that it moves with the tissue.
+// A scatterer is of the voxel so many voxels beside it, along each axis: a triangle from −1 to 1, of ten bits. So
+// the mean of what they send back goes from voxel to voxel as a quadratic B-spline, and what the CT tells by voxels
+// has no stairs. Fixed to the scatterer, so that it moves with the tissue.
 SHARED uint us_stray_bits(uint seed) {
   return mix_32(seed ^ 0x5bd1e995u);
 }

@@ -89,8 +89,9 @@ SHARED real us_turned_rad(real n_less_1, real off_radii) {
 }
 // How far the rays of a beam of this width part, a share of the width for each mm behind the body (negative: they
 // meet); 0: of no round body. The ball is told by chord and cosine of the angle to the normal where the beam leaves
-// it, by the law scatter, or by us_parting_by_width. Smaller ones are narrower than a beam, or single voxels of noise.
-// What is left within 30° of squarely may be a layer, which voxels tell roughly; a ball hardly turns a ray there.
+// it, by the law scatter, or by us_parting_by_width. Smaller ones are narrower than a beam, or single voxels of
+// noise. What is left within 30° of squarely may be a layer, which voxels tell roughly; a ball hardly turns a ray
+// there.
 SHARED_CONSTANT real kUsLeastRoundMm = 3.0, kUsLeastChordMm = 2.0;
 SHARED_CONSTANT real kUsLayerSine = 0.5, kUsRoundSine = 0.7;
 SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_mm, real cosine, real width_mm) {
@@ -105,8 +106,8 @@ SHARED real us_parting_per_mm(real shift_inside, real shift_outside, real chord_
 }
 // The same of a body that from the middle of the beam's way through it reaches so far to one side and to the other:
 // half the sum is its radius, half the difference how far off its middle the beam runs. A layer reaches as far to
-// both sides, at any tilt, and turns no ray. Never more than this (design): behind an edge the aperture looks past it on
-// both sides, so that its shadow deepens with the way and is no bar that begins black.
+// both sides, at any tilt, and turns no ray. Never more than this (design): behind an edge the aperture looks past
+// it on both sides, so that its shadow deepens with the way and is no bar that begins black.
 SHARED_CONSTANT real kUsMostPartingPerMm = 0.08;
 SHARED_CONSTANT real kUsReachStepMm = 0.5, kUsReachStepShare = 0.1;  // of looks for its end, and of the way so far
 SHARED_CONSTANT real kUsMostReachMm = 40.0;

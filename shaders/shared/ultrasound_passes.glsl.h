@@ -52,7 +52,8 @@ SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
 SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u, kUsFluid = 4u,
                      kUsVessel = 12u;  // classes of tissue; before the first:
 SHARED_CONSTANT int kUsGel = 255;
-// By what round bodies are told: the plane where the beam leaves them, or how wide they are about its way through them.
+// By what round bodies are told: the plane where the beam leaves them, or how wide they are about its way through
+// them.
 SHARED_CONSTANT int kUsEdgesByOneSide = 1, kUsEdgesByWidth = 2;
 struct UsLineParameters {
   vec4
