@@ -13,7 +13,7 @@ std::string whole(double value, const char* unit) {
 
 std::string way_words(const session::PlannedWay& way) {
   std::string words = whole(way.length_mm, " mm from the skin, ");
-  words += std::lround(way.skin_angle_deg) == 0 ? "straight in" : whole(way.skin_angle_deg, "° off straight in");
+  words += std::lround(way.skin_angle_deg) == 0 ? "straight in" : whole(way.skin_angle_deg, "° off perpendicular");
   if (std::lround(way.head_deg) != 0)
     words += ", " + whole(std::abs(way.head_deg), "° towards the ") + (way.head_deg > 0.0 ? "head" : "feet");
   return words;

@@ -9,7 +9,7 @@
 
 namespace seldinger::app {
 
-// "62 mm from the skin, 12° off straight in, 5° towards the head".
+// "62 mm from the skin, 12° off perpendicular, 5° towards the head".
 std::string way_words(const session::PlannedWay& way);
 // What speaks against it, each in a line: "through bone, 3 mm of it, 21 mm below the skin".
 std::vector<std::string> warnings_of(const session::PlannedWay& way);

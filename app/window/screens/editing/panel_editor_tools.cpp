@@ -344,10 +344,11 @@ void EditorPanel::draw_entry(CaseEditor& editor) {
   const auto scene = editor.scene();
   if (!scene || !scene->way) return;
   const session::PlannedWay& way = *scene->way;
+  ImGui::PushTextWrapPos(0.0F);
   ImGui::Text("%.0f mm to the target's middle; the needle is %.0f mm long", way.length_mm,
               editor.row().instrument.length_mm);
-  ImGui::Text("%.0f° off straight into the skin, %.0f° to the %s", way.skin_angle_deg, std::abs(way.head_deg),
-              way.head_deg < 0.0 ? "feet" : "head");
+  ImGui::Text("%.0f° off perpendicular to the skin, %.0f° towards the %s", way.skin_angle_deg,
+              std::abs(way.head_deg), way.head_deg < 0.0 ? "feet" : "head");
   for (const session::WayPart& part : way.parts) {
     const ImVec4 colour = part.forbidden ? ImVec4(1.0F, 0.45F, 0.35F, 1.0F) : ImVec4(0.75F, 0.80F, 0.84F, 1.0F);
     ImGui::TextColored(colour, "%.0f to %.0f mm: %s", part.from_mm, part.from_mm + part.length_mm,
@@ -356,6 +357,7 @@ void EditorPanel::draw_entry(CaseEditor& editor) {
   for (const std::string& one : way.not_crossed)
     ImGui::TextColored({1.0F, 0.45F, 0.35F, 1.0F}, "does not cross %s", one.c_str());
   if (way.free()) ImGui::TextColored({0.45F, 0.85F, 0.55F, 1.0F}, "free of bone, gas and structures");
+  ImGui::PopTextWrapPos();
 }
 
 bool EditorPanel::draw_setting(const casedb::SettingRow& row) {

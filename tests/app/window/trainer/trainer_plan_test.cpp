@@ -93,7 +93,7 @@ TEST(PlanWords, TellTheWayAndWhatSpeaksAgainstIt) {
   EXPECT_EQ(way_words(way), "62 mm from the skin, straight in");
   way.skin_angle_deg = 11.6;
   way.head_deg = -4.7;
-  EXPECT_EQ(way_words(way), "62 mm from the skin, 12° off straight in, 5° towards the feet");
+  EXPECT_EQ(way_words(way), "62 mm from the skin, 12° off perpendicular, 5° towards the feet");
   EXPECT_TRUE(warnings_of(way).empty());
   way.parts = {{"liver", 20.0, 42.0, {}, false}, {"bone", 21.2, 2.6, {}, true}};
   way.not_crossed = {"renal cortex"};
