@@ -39,7 +39,8 @@ void run(const std::string& command, std::string* out = nullptr) {
 }
 
 void write_file(const fs::path& to, const std::string& bytes) {
-  std::ofstream(to, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::ofstream stream(to, std::ios::binary);
+  EXPECT_TRUE(stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) << to;
 }
 
 void write(const volume::Volume& volume, const fs::path& to) {
@@ -138,8 +139,9 @@ int main(int count, char** words) {
     std::puts("ct_gallery PROGRAM FOLDER [CT …]");
     return 2;
   }
-  seldinger::program = words[1];
+  seldinger::program = seldinger::fs::absolute(words[1]).string();
   seldinger::folder = seldinger::fs::absolute(words[2]);
+  seldinger::fs::create_directories(seldinger::folder);
   seldinger::scratch = seldinger::fixtures::fresh_folder("ct_gallery");
   for (int which = 3; which < count; ++which) seldinger::cts.emplace_back(seldinger::fs::absolute(words[which]));
   return RUN_ALL_TESTS();
