@@ -39,7 +39,7 @@ Html baseline_table(const ValidityReport& report) {
 
 Html flow_section(const ValidityReport& report) {
   Html html;
-  html.raw("<section id=\"flow\">\n<h2>4 Who came how far</h2>\n");
+  html.raw("<section id=\"flow\">\n<h2>4 How far people came</h2>\n");
   if (!report.plan.frozen()) return html.raw("<p>Nobody is enrolled until the plan is frozen.</p>\n</section>\n");
   const casedb::ParticipantFlow& flow = report.flow;
   html.raw("<div class=\"flow\">\n");

@@ -58,7 +58,8 @@ def draw(browser, base, path, out, size):
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(quiet, directory=copy))
         threading.Thread(target=server.serve_forever, daemon=True).start()
         subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
-                        "--virtual-time-budget=4000", "--screenshot=" + out, "--window-size=%d,%d" % size,
+                        "--run-all-compositor-stages-before-draw", "--virtual-time-budget=4000",
+                        "--screenshot=" + out, "--window-size=%d,%d" % size,
                         "http://127.0.0.1:%d/shown.html" % server.server_port],
                        check=True, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         server.shutdown()
@@ -82,16 +83,24 @@ class Commands:
         return json.loads(self.said(*words, "--json"))
 
 
-def add_study(commands, scratch):
-    """A study of the simulated people, with a plan that is frozen."""
-    if any(one["title"] == STUDY for one in commands.ask("study", "list")["studies"]):
-        return
-    plan_file, text_file = scratch + "/plan.json", scratch + "/consent.txt"
+def begin_study(commands, scratch, title):
+    """A study that asks for consent; whether it is new."""
+    if any(one["title"] == title for one in commands.ask("study", "list")["studies"]):
+        return False
+    text_file = scratch + "/consent.txt"
     with open(text_file, "w") as text:
         text.write("May your attempts be used, without your name, to find out what this training teaches?\n")
-    commands.done("study", "new", STUDY)
+    commands.done("study", "new", title)
+    commands.done("consent", "text", text_file, "--study", title)
+    return True
+
+
+def add_study(commands, scratch):
+    """A study of the simulated people, with a plan that is frozen."""
+    if not begin_study(commands, scratch, STUDY):
+        return
+    plan_file = scratch + "/plan.json"
     commands.done("study", "researcher", STUDY, "--user", "researcher")
-    commands.done("consent", "text", text_file, "--study", STUDY)
     commands.done("study", "template", "--case", "Drill 1", "--out", plan_file)
     with open(plan_file) as file:
         plan = json.loads(file.read().replace("REPLACE: ", ""))  # as if it were filled in
@@ -115,8 +124,7 @@ def add_day(commands, scratch, attempt):
             commands.done("questionnaire", "add", forms[form])
     asked = commands.ask("questionnaire", "open", "workshop-2007", "--title", "Study day", "--group", "trainee",
                          "--group", "expert")["code"]
-    commands.done("study", "new", WORKSHOP_STUDY)  # real people come to a workshop
-    commands.done("consent", "text", scratch + "/consent.txt", "--study", WORKSHOP_STUDY)
+    begin_study(commands, scratch, WORKSHOP_STUDY)  # real people come to a workshop
     board = commands.ask("workshop", "open", WORKSHOP_STUDY, "--title", "Autumn workshop", "--case", "Drill 1", "--case",
                          "Drill 2", "--station", "Talk")["code"]
     commands.done("workshop", "admit", board, "--user", "trainee", "--consent")

@@ -92,7 +92,7 @@ void add_blinded(Html& html, const casedb::BlindedCounts& counts) {
 }
 
 void add_flow(Html& html, const StudyView& view) {
-  html.raw("<section>\n<h2>Who came how far</h2>\n<p>").text(study_people_text(view.flow.people));
+  html.raw("<section>\n<h2>How far people came</h2>\n<p>").text(study_people_text(view.flow.people));
   html.raw(" now, ").text(std::to_string(view.flow.ever_enrolled)).raw(" were enrolled.");
   if (view.flow.unknown > 0)
     html.raw(" ").text(std::to_string(view.flow.unknown)).raw(" of them have been erased since.");
