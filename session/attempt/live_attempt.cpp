@@ -124,7 +124,9 @@ class Running {
     const auto frame = frames_.take();
     if (const auto exposed = reports_.take()) report_ = *exposed;
     // A tick that was missed is made up for, so that the attempt's clock is the wall's.
-    const int due = std::clamp(static_cast<int>(std::lround(elapsed_s / base::kTickS)), 1, kMostTicksAtOnce);
+    const int passed = static_cast<int>(std::min(std::lround(elapsed_s / base::kTickS), 2L * kMostTicksAtOnce));
+    if (passed > kMostTicksAtOnce && with_.stalled) with_.stalled();
+    const int due = std::clamp(passed, 1, kMostTicksAtOnce);
     for (int i = 0; i < due && !over_; ++i) tick(i == 0 && frame ? &*frame : nullptr);
     const engine::Moment moment = engine::moment_of(now_);
     moments_.put(moment);

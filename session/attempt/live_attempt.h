@@ -48,6 +48,7 @@ class LiveAttempt {
     std::function<void(const engine::Tick&, const engine::TickState&)> feel{};  // after each: what hands feel in it
     std::function<bool()> done;                                                 // after each tick
     std::function<bool()> paused{};                                             // while it says so, no time goes by
+    std::function<void()> stalled{};  // nor did it, as the machine stood still: before the tick that follows
     std::function<void(const engine::Moment&)> watch{};  // what else there is to do with a tick
     std::function<void()> ended{};                       // no tick comes any more; scoring and storing follow
     // By the recorder's thread, with each piece that is stored: what a mentor who looks in lets happen.

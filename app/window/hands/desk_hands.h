@@ -52,7 +52,7 @@ class DeskHands {
                double elapsed_s, cases::Inputs& inputs) noexcept;
   // What the arms feel of the tick that was done goes to their motors.
   void feel(const engine::Tick& tick, const engine::TickState& now, double elapsed_s) noexcept;
-  // Instead of both while no time goes by.
+  // Instead of both while no time goes by, and before the tick that follows a stall.
   void let_go() noexcept;
 
   const devices::Hands& mouse() const noexcept { return mouse_; }

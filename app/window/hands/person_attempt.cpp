@@ -289,6 +289,7 @@ void PersonAttempt::run() {
                hands_->let_go();
                return true;
              },
+         .stalled = [this] { hands_->let_go(); },
          .watch = [this](const engine::Moment& moment) { watch(moment); },
          .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); },
          .asked = [this](cases::EventKind kind) { asked_ = kind; },

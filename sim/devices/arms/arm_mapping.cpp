@@ -56,10 +56,10 @@ const cases::ToolPose& ArmMapping::advance(const ArmReading& reading, bool free,
   const bool sound = reading.healthy && base::is_finite(reading.position_mm) &&
                      base::is_finite(reading.orientation[0]) && base::is_finite(reading.orientation[1]) &&
                      base::is_finite(reading.orientation[2]);
-  if (!sound) {
-    healthy_ = false;
-    return pose_;
-  }
+  if (!sound) let_go();
+  if (!healthy_) silent_s_ += elapsed_s;
+  const bool asked_before = begun_ && !healthy_ && !(reading.age_s + reading.round_trip_s <= silent_s_);
+  if (!sound || asked_before) return pose_;
   cases::ToolPose pose = pose_of(reading);
   if (begun_ && !healthy_) {
     offset_lps_mm_ = pose_.position_lps_mm - pose.position_lps_mm;
@@ -79,6 +79,11 @@ const cases::ToolPose& ArmMapping::advance(const ArmReading& reading, bool free,
   pose.position_lps_mm += offset_lps_mm_;
   pose_ = pose;
   return pose_;
+}
+
+void ArmMapping::let_go() noexcept {
+  if (healthy_) silent_s_ = 0.0;
+  healthy_ = false;
 }
 
 void ArmMapping::leave_at(const cases::ToolPose& pose) noexcept {

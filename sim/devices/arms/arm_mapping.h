@@ -39,7 +39,8 @@ class ArmMapping {
              const DeviceGains& gains = {}) noexcept;
 
   // The tool's pose of this tick. Of a device that is not healthy: the last, it stays where it was. When the device
-  // comes back its hand may be anywhere: the tool goes on from where it stayed, as if the hand had re-gripped it,
+  // comes back its hand may be anywhere: the tool goes on from where it stayed, as if the hand had re-gripped it
+  // once it answers what was asked since (an answer that waited out a stall tells where the hand was before it),
   // and what lies between the two melts at kMeltMmS and kMeltRadS while `free` (the tool is outside the body, where
   // that disturbs nothing).
   const cases::ToolPose& advance(const ArmReading& reading, bool free, double elapsed_s) noexcept;
@@ -47,7 +48,7 @@ class ArmMapping {
   // Of a hand that is not healthy: something else holds its tool, here; from here it goes on.
   void leave_at(const cases::ToolPose& pose) noexcept;
   // Not followed until the next reading, which is a re-grip: so after a pause.
-  void let_go() noexcept { healthy_ = false; }
+  void let_go() noexcept;
   // Between hand and tool; 0 but for a re-grip.
   double offset_mm() const noexcept;
 
@@ -65,6 +66,7 @@ class ArmMapping {
   cases::ToolPose pose_;
   glm::dvec3 offset_lps_mm_{0.0}, offset_rad_{0.0};  // the turn of the axis, and then
   double spin_rad_ = 0.0;                            // about it
+  double silent_s_ = 0.0;                            // since it was last healthy
   bool begun_ = false, healthy_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 #include "app/attempts/this_program.h"
@@ -75,6 +76,25 @@ TEST_F(LiveConditions, APauseIsAnEventWithItsLength) {
   EXPECT_EQ(row.conditions.pauses, 1);
   EXPECT_EQ(row.conditions.paused_s, events[1].wall_s);
   EXPECT_EQ(stored->conditions.paused_s, events[1].wall_s);
+}
+
+// What a machine that stood still for long does not make up for is told to the hands before they are asked again.
+TEST_F(LiveConditions, AStallThatIsNotMadeUpForIsTold) {
+  int ticks = 0, told = 0, told_after_it = 0;
+  const auto stored = attempt().run({.hands =
+                                         [&](const cases::State&, const cases::FrameTruth*) {
+                                           ++ticks;
+                                           if (ticks == 100) {
+                                             told = 0;
+                                             std::this_thread::sleep_for(std::chrono::milliseconds(60));
+                                           }
+                                           if (ticks == 101) told_after_it = told;
+                                           return still();
+                                         },
+                                     .done = [&] { return ticks >= 200; },
+                                     .stalled = [&] { ++told; }});
+  ASSERT_TRUE(stored) << stored.error().text;
+  EXPECT_EQ(told_after_it, 1);
 }
 
 TEST_F(LiveConditions, APauseInWhichItIsStoppedIsKeptToo) {

@@ -119,6 +119,29 @@ TEST(ArmMapping, ComesBackWithoutAJumpAndMeltsOnlyOutsideTheBody) {
   EXPECT_LT(glm::length(pose.side - straight.side), 1e-9);
 }
 
+// The hand went on meanwhile: the tool stays, and does not leap after it.
+TEST(ArmMapping, AnAnswerThatWaitedOutAStallIsNoHandToFollow) {
+  ArmMapping hand({}, {});
+  const glm::dvec3 before(1, 2, 3);
+  ArmReading reading = reading_at(before);
+  reading.round_trip_s = 0.001;
+  hand.advance(reading, false, 0.001);
+  hand.let_go();
+  reading.round_trip_s = 0.6;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(hand.advance(reading, false, 0.001).position_lps_mm, before);
+  EXPECT_FALSE(hand.healthy());
+  reading.position_mm.y += 15.0;
+  reading.round_trip_s = 0.001;
+  EXPECT_LT(glm::length(hand.advance(reading, false, 0.001).position_lps_mm - before), 1e-12);
+  EXPECT_TRUE(hand.healthy());
+  reading.round_trip_s = 0.02;  // slow as it always is, it is followed
+  hand.let_go();
+  int ticks = 0;
+  do hand.advance(reading, false, 0.001);
+  while (!hand.healthy() && ++ticks < 100);
+  EXPECT_NEAR(ticks, 20, 1);
+}
+
 TEST(ArmMapping, GoesOnFromWhereSomethingElseLeftTheTool) {
   const cases::ToolPose left{{7, 8, 9}, {0, 1, 0}, {1, 0, 0}};
   for (const bool was_there : {false, true}) {
