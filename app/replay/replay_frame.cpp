@@ -234,7 +234,8 @@ Canvas ReplayFrame::draw(const cases::State& state, const session::GreyPicture& 
     const auto force = std::upper_bound(course_.forces.begin(), course_.forces.end(), state.t_s,
                                         [](double t_s, const auto& one) { return t_s < one.t_s; });
     const auto& felt = force == course_.forces.begin() ? course_.forces.front() : *(force - 1);
-    read("force along the needle", text("%.2f N", felt.axial_n), kText);
+    const double hundredths_n = std::round(100.0 * felt.axial_n) + 0.0;  // of nothing there is no minus
+    read("force along the needle", text("%.2f N", hundredths_n / 100.0), kText);
   }
   // What happened within the last two seconds.
   for (const reports::Lane& lane : course_.lanes)
