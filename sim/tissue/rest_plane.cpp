@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/shared/displacement.glsl.h"
 #include "sim/base/check.h"
 
 namespace seldinger::tissue {
