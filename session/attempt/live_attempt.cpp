@@ -22,7 +22,7 @@ namespace seldinger::session {
 namespace {
 
 // A stall longer than this is not caught up with: hands would seem to have stood still for as long.
-constexpr int kMostTicksAtOnce = 20;
+constexpr long kMostTicksAtOnce = 20;
 
 // Where the recording goes: into the library, piece by piece while it is made, or into memory until it is scored.
 class Store {
@@ -124,10 +124,10 @@ class Running {
     const auto frame = frames_.take();
     if (const auto exposed = reports_.take()) report_ = *exposed;
     // A tick that was missed is made up for, so that the attempt's clock is the wall's.
-    const int passed = static_cast<int>(std::min(std::lround(elapsed_s / base::kTickS), 2L * kMostTicksAtOnce));
+    const long passed = std::lround(elapsed_s / base::kTickS);
     if (passed > kMostTicksAtOnce && with_.stalled) with_.stalled();
-    const int due = std::clamp(passed, 1, kMostTicksAtOnce);
-    for (int i = 0; i < due && !over_; ++i) tick(i == 0 && frame ? &*frame : nullptr);
+    const long due = std::clamp(passed, 1L, kMostTicksAtOnce);
+    for (long i = 0; i < due && !over_; ++i) tick(i == 0 && frame ? &*frame : nullptr);
     const engine::Moment moment = engine::moment_of(now_);
     moments_.put(moment);
     if (with_.watch) with_.watch(moment);

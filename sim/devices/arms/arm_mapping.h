@@ -47,7 +47,7 @@ class ArmMapping {
   bool healthy() const noexcept { return healthy_; }
   // Of a hand that is not healthy: something else holds its tool, here; from here it goes on.
   void leave_at(const cases::ToolPose& pose) noexcept;
-  // Not followed until the next reading, which is a re-grip: so after a pause.
+  // Not followed until it answers what is asked from now on, which is a re-grip: so after a pause or a stall.
   void let_go() noexcept;
   // Between hand and tool; 0 but for a re-grip.
   double offset_mm() const noexcept;

