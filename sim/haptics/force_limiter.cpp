@@ -12,8 +12,6 @@ namespace {
 
 // After a fault all force is gone in this time (docs/touch.md, S16).
 constexpr double kFadeS = 0.020;
-// And comes back in this (design).
-constexpr double kReturnS = 0.3;
 // Per tick of 1 ms (docs/touch.md): what changes faster follows at this rate.
 constexpr double kMostChangeNS = 150.0;
 // What a device bears "for 24 hours" (thesis §5.3.2) is said of motors and housing, which warm up in minutes

@@ -6,6 +6,9 @@
 
 namespace seldinger::haptics {
 
+// A force that a fault took away comes back in this (design).
+inline constexpr double kReturnS = 0.3;
+
 struct ForceLimits {
   double peak_n = 0.0, continuous_n = 0.0;  // 0 < continuous ≤ peak
   double tick_s = 0.001;

@@ -18,10 +18,10 @@ bool leads(const devices::HandIntent& intent) noexcept {
          intent.advance_mm != 0.0 || intent.guides > 0 || intent.resets > 0;
 }
 
-// How long it has been so, as far as it was not otherwise since.
-void count(bool so, double elapsed_s, double& lasted_s) noexcept {
-  constexpr double kMostS = 1.5 * kSaidLostS;
-  lasted_s = std::clamp(lasted_s + (so ? elapsed_s : -kForgivenTimes * elapsed_s), 0.0, kMostS);
+// Whether it has been so for said_s, as far as it was not otherwise since.
+bool lasts(bool so, double said_s, double elapsed_s, double& lasted_s) noexcept {
+  lasted_s = std::clamp(lasted_s + (so ? elapsed_s : -kForgivenTimes * elapsed_s), 0.0, 1.5 * said_s);
+  return lasted_s >= said_s;
 }
 
 constexpr const char* kArmModel = "inverse3";
@@ -39,6 +39,11 @@ std::array<haptics::HandSettings, 2> two_arms() {
 bool limit_is_said(double held_back_n, double elapsed_s, double& left_s) noexcept {
   left_s = held_back_n > kFeltLessN ? kSaidLimitS : std::max(0.0, left_s - elapsed_s);
   return left_s > 0.0;
+}
+
+bool late_is_said(bool too_late, double elapsed_s, LateWatch& watch) noexcept {
+  watch.returning_s = too_late ? haptics::kReturnS : std::max(0.0, watch.returning_s - elapsed_s);
+  return lasts(watch.returning_s > 0.0, kSaidLateS, elapsed_s, watch.lasted_s);
 }
 
 DeskHands::DeskHands(const cases::Case& scene, const devices::HandsStart& start,
@@ -158,13 +163,12 @@ void DeskHands::read_arms(const cases::State& state, const devices::AxialForces&
   inputs.freeze = inputs.freeze != arms.freeze;  // either lets go what the other froze
   for (std::size_t side = 0; side < 2; ++side) {
     const bool heard = desk_->healthy(static_cast<Side>(side));
-    count(!heard, elapsed_s, silent_s_[side]);
-    arms_.lost[side] = silent_s_[side] >= kSaidLostS;
+    arms_.lost[side] = lasts(!heard, kSaidLostS, elapsed_s, silent_s_[side]);
     const bool answers = heard && !arms_.lost[side];
     // A hand that is away goes where it likes and feels nothing; back, it grips its tool where that was left.
     held_[side].healthy = answers && !away_;
-    count(answers && held_[side].delay_ticks > haptics::kMostDelayTicks, elapsed_s, late_s_[side]);
-    arms_.late[side] = late_s_[side] >= kSaidLostS;
+    arms_.late[side] =
+        late_is_said(answers && held_[side].delay_ticks > haptics::kMostDelayTicks, elapsed_s, late_[side]);
     if (heard && !held_[side].healthy) desk_->let_go(static_cast<Side>(side));
     if (answers) arm_led_[side] = true;
     if (held_[side].healthy) {

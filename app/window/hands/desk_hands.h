@@ -19,6 +19,10 @@ namespace seldinger::app {
 // once. Who answers now and then is silent, too: a moment of answers is worth kForgivenTimes as much silence.
 inline constexpr double kSaidLostS = 0.1, kForgivenTimes = 3.0;
 
+// One answer too late takes the force for haptics::kReturnS, so that a few of them a second take all of it: an arm
+// is late that has been without its whole force for so long (design), a moment of it counted as above.
+inline constexpr double kSaidLateS = 1.0;
+
 // What is held back comes and goes with each layer; so long it is said (design), and what is less nobody feels:
 // some 7 % of 1.5 N (Jones 1989, recalled).
 inline constexpr double kSaidLimitS = 1.0, kFeltLessN = 0.1;
@@ -27,11 +31,18 @@ inline constexpr double kSaidLimitS = 1.0, kFeltLessN = 0.1;
 // for.
 bool limit_is_said(double held_back_n, double elapsed_s, double& left_s) noexcept;
 
+struct LateWatch {
+  double returning_s = 0.0;  // until the force that the last answer too late took is whole again
+  double lasted_s = 0.0;     // without the whole force
+};
+// Whether an arm is said to be late in this tick; `too_late`: it answers, but not in time to give force.
+bool late_is_said(bool too_late, double elapsed_s, LateWatch& watch) noexcept;
+
 // By haptics::Side.
 struct ArmsHeld {
   bool used = false;                     // else there are none
   std::array<bool, 2> lost{true, true};  // nothing was heard for kSaidLostS, or ever
-  std::array<bool, 2> late{};            // it is followed, but answers too late to give force
+  std::array<bool, 2> late{};            // it is followed, but answers too late, too often, to give force
   std::array<bool, 2> at_limit{};        // within kSaidLimitS, tissue resisted with more than its motors give
   std::array<haptics::Tool, 2> tools{haptics::Tool::none, haptics::Tool::none};
 };
@@ -84,7 +95,8 @@ class DeskHands {
   BracedHand braced_;
   cases::Inputs last_;
   ArmsHeld arms_;
-  std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS}, late_s_{}, limit_s_{};
+  std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS}, limit_s_{};
+  std::array<LateWatch, 2> late_{};
   bool away_ = false;              // the hand was, in the last tick
   bool pulled_away_ = false;       // and its arm's trigger was pulled meanwhile, and is still
   std::array<bool, 2> arm_led_{};  // last, and so the mouse's own pose of it is old
