@@ -201,7 +201,7 @@ std::vector<double> values_of(std::span<const Values> rows, std::size_t m) {
 
 std::vector<Values> whole(std::span<const SimulatedPoint> points) {
   std::vector<Values> rows;
-  for (const SimulatedPoint& one : points) rows.push_back(one.values);
+  for (const SimulatedPoint& one : points) drop_rounding(rows.emplace_back(one.values));
   return rows;
 }
 

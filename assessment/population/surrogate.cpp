@@ -1,6 +1,7 @@
 #include "assessment/population/surrogate.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -119,6 +120,17 @@ bool is_whole(const std::string& metric) {
   return info == nullptr || info->estimand.scale == Scale::count || info->estimand.scale == Scale::yes_no;
 }
 
+void drop_rounding(Values& values) noexcept {
+  constexpr int kDigits = 9;
+  std::array<char, 32> text;
+  for (std::optional<double>& value : values) {
+    if (!value || !std::isfinite(*value)) continue;
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), *value, std::chars_format::general, kDigits);
+    std::from_chars(text.data(), end.ptr, *value);
+  }
+}
+
 bool add_once(const std::vector<SimulatedPoint>& more, std::vector<SimulatedPoint>& points) {
   std::map<Place, std::size_t> known;  // of one place is the same person on the same occasion
   for (std::size_t p = 0; p < points.size(); ++p) known.emplace(points[p].place, p);
@@ -140,6 +152,7 @@ base::Result<Surrogate> Surrogate::fit(SurrogateMark mark, std::vector<Simulated
   Surrogate made;
   made.mark_ = std::move(mark);
   made.points_ = std::move(points);
+  for (SimulatedPoint& one : made.points_) drop_rounding(one.values);
   made.fit_places();
   made.fit_surfaces();
   return made;

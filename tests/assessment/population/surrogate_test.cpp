@@ -44,6 +44,38 @@ TEST(Surrogate, WhatChanceTakesBeyondTheBoundsIsTold) {
   EXPECT_LE(few.off.shares, few.most_off_without_fault.shares);
 }
 
+// Of a tracking rate that is 100 Hz in all but its last digits, nothing is a difference.
+TEST(Surrogate, WhatRoundingAloneMakesDifferIsOneValue) {
+  const auto with_rate = [](std::vector<SimulatedPoint> points) {
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (std::size_t m = 0; m < points[p].values.size(); ++m)
+        if (known_mark().metrics[m].id == "sample_rate_p5")
+          points[p].values[m] = 100.0 - 1e-11 * double(p % 7 * p % 5);
+    return points;
+  };
+  const auto all = with_rate(attempts_of({-0.6, 0.0, 0.6, 1.2, 1.8}, 1, 2000));
+  const auto surrogate = Surrogate::fit(known_mark(), all);
+  ASSERT_TRUE(surrogate);
+  const auto less = with_rate(attempts_of({0.0}, 77, 300)), more = with_rate(attempts_of({1.2}, 78, 300));
+  const auto agreement = agreement_of(*surrogate, more, 20, 3);
+  EXPECT_EQ(agreement.metrics.size(), 5U);
+  EXPECT_EQ(agreement.pairs, 3U) << "no pair is with what is the same in all";
+  for (const EffectAgreement& one : effects_of(*surrogate, less, more, 20, 3))
+    EXPECT_NE(one.metric, "sample_rate_p5");
+  Values values{100.0 - 2e-10, 0.0, std::nullopt, -1.23456789012e-3, 1e300, 1e-310, 1.7976931348623157e308};
+  drop_rounding(values);
+  EXPECT_EQ(*values[0], 100.0);
+  EXPECT_EQ(*values[3], -1.23456789e-3);
+  EXPECT_EQ(values[1], 0.0);
+  EXPECT_FALSE(values[2]);
+  EXPECT_TRUE(std::isfinite(*values[4]));
+  EXPECT_GT(*values[5], 0.0);
+  EXPECT_TRUE(std::isfinite(*values[6]));
+  Values again = values;
+  drop_rounding(again);
+  EXPECT_EQ(again, values);
+}
+
 TEST(Surrogate, AttemptsThatItWasFittedToAreKnownAgain) {
   std::vector<SimulatedPoint> some = attempts_of({0.0, 1.2}, 77, 50);
   EXPECT_FALSE(was_fitted_to(fitted(), some));
@@ -241,8 +273,7 @@ TEST(Surrogate, AttemptsOfOnePersonAreAlike) {
 TEST(Surrogate, CountsStayCountsAndNothingIsBeyondWhatWasSeen) {
   const std::size_t count = fitted().index_of("withdrawals_full"), distance = fitted().index_of("tip_target_dist");
   double most = 0.0;
-  for (const SimulatedPoint& one : attempts_of({-0.6, 0.0, 0.6, 1.2, 1.8}, 1, 2000))
-    most = std::max(most, one.values[distance].value_or(0.0));
+  for (const SimulatedPoint& one : fitted().attempts()) most = std::max(most, one.values[distance].value_or(0.0));
   for (std::uint64_t i = 0; i < 2000; ++i) {
     Place place{};
     place.fill(i % 2 == 0 ? 9.0 : -9.0);  // where nobody was
