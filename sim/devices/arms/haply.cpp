@@ -17,9 +17,10 @@ namespace {
 constexpr double kMmPerM = 1000.0;
 // A message that cannot be sent for so long will not be: the other end hangs.
 constexpr double kStuckS = 0.1;
-// Who was asked several times in vain may answer each. Once one answer is there the others are no further away than
-// a usual round trip and this; then one command is on its way again, and a round trip is told from that one.
-constexpr double kQuietS = 0.002;
+// Who was asked several times in vain may answer each, and an answer to one of those must not be taken for that to
+// the next: a late arm would be told as one in time from then on. Whose answers are of use at all sends the last of
+// them within kHoldS of the first; quiet for so long, one command is on its way again.
+constexpr double kQuietS = kHoldS + 0.002;
 // A grip speaks by radio, and not in every message.
 constexpr double kGripSilentS = 0.1;
 
@@ -102,7 +103,6 @@ struct Haply::Connection final : WebSocketPeer {
       give_out(*message);
       for (Arm& arm : arms) read(*message, arm);
       heard_ns = now_ns();
-      if (waiting_since_ns != 0 && !running_dry) usual_s = seconds_since(waiting_since_ns);
       waiting_since_ns = 0;
     }
     // One command is on its way at a time, so that a round trip can be told.
@@ -118,7 +118,7 @@ struct Haply::Connection final : WebSocketPeer {
         ask(*link);
         running_dry = true;
       }
-    } else if (!running_dry || seconds_since(heard_ns) > usual_s + kQuietS) {
+    } else if (!running_dry || seconds_since(heard_ns) > kQuietS) {
       running_dry = false;
       ask(*link);
     }
@@ -211,7 +211,6 @@ struct Haply::Connection final : WebSocketPeer {
   bool given_out = false;
   std::int64_t waiting_since_ns = 0;  // first asked without an answer so far; 0: nothing is
   std::int64_t heard_ns = 0;
-  double usual_s = 0.0;      // a round trip when all is well
   bool running_dry = false;  // what was asked in vain may still be answered
   mutable std::mutex mutex;
   HaplyStatus status;

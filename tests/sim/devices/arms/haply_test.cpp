@@ -264,6 +264,34 @@ TEST(Haply, ALateServiceIsToldAsLate) {
   EXPECT_GE(told, 90) << "no force law follows it; a machine that stalls may mistake some";
 }
 
+// While it is silent it is asked again and again, and may answer each: no such answer is taken for a later one's,
+// which would tell a late arm as in time from then on.
+TEST(Haply, ALateServiceIsToldAsLateAfterAStall) {
+  Station station(still_arms());
+  ASSERT_TRUE(station.ready());
+  SimulatedFaults stalls, late;
+  stalls.delay_s = 0.015;
+  late.delay_s = 0.004;
+  int mistaken = 0;
+  for (int stall = 0; stall < 15; ++stall) {
+    for (const SimulatedFaults& faults : {stalls, late}) {
+      station.service->set(faults);
+      for (int i = 0; i < 25; ++i) {
+        station.send({0, 0, 0});
+        sleep_ms(2.0);
+      }
+    }
+    int early = 0;
+    for (int i = 0; i < 25; ++i) {
+      station.send({0, 0, 0});
+      if (station.haply->hand(0).poll().round_trip_s < 0.004) ++early;
+      sleep_ms(2.0);
+    }
+    if (early > 5) ++mistaken;
+  }
+  EXPECT_LE(mistaken, 2) << "of 15 stalls; a machine that stalls itself may add to them";
+}
+
 TEST(Haply, GarbageIsSurvived) {
   Station station(still_arms());
   ASSERT_TRUE(station.ready());
