@@ -48,8 +48,8 @@ bool is_whole(const std::string& metric);
 
 using Values = std::vector<std::optional<double>>;  // in the mark's order; nothing: the metric has none
 
-// To nine digits, finer than anything measured: what lies below is rounding (a tracker of 100 Hz is one of
-// 99.9999999998 at other times of day), and is no spread. Twice is as good as once.
+// To nine digits, finer than anything measured: what lies below is rounding (100 Hz are 99.9999999998 where times
+// are sums of ticks), and is no spread. Twice is as good as once.
 void drop_rounding(Values& values) noexcept;
 
 struct SimulatedPoint {

@@ -204,7 +204,6 @@ TEST(DeskHands, AnArmThatWasAwayTakesTheNeedleUpWhereItIs) {
   EXPECT_TRUE(until(false, [&] { return glm::dot(tip() - back, up) > 5.0; })) << glm::dot(tip() - back, up);
 }
 
-// What comes and goes from tick to tick is one notice, and is over a second after the last of it.
 // One answer too late takes the force for .3 s: a few of them a second are an arm without force, which is said.
 TEST(DeskHands, AnArmThatIsLateNowAndThenIsSaidToBeLate) {
   const auto said = [](int every, int ticks, LateWatch& watch) {
@@ -223,6 +222,7 @@ TEST(DeskHands, AnArmThatIsLateNowAndThenIsSaidToBeLate) {
   EXPECT_EQ(said(1000, 60'000, seldom), 0) << "once a second it comes back";
 }
 
+// What comes and goes from tick to tick is one notice, and is over a second after the last of it.
 TEST(DeskHands, ALimitIsSaidForASecondAndDoesNotFlicker) {
   double left_s = 0.0;
   EXPECT_FALSE(limit_is_said(0.0, kTickS, left_s));
