@@ -19,7 +19,8 @@ constexpr double kMmPerM = 1000.0;
 constexpr double kStuckS = 0.1;
 // Who was asked several times in vain may answer each, and an answer to one of those must not be taken for that to
 // the next: a late arm would be told as one in time from then on. Whose answers are of use at all sends the last of
-// them within kHoldS of the first; quiet for so long, one command is on its way again.
+// them within kHoldS of the first; quiet for so long, one command is on its way again. Until that is answered the
+// arm is not followed: it would be lost a second time in this quiet.
 constexpr double kQuietS = kHoldS + 0.002;
 // A grip speaks by radio, and not in every message.
 constexpr double kGripSilentS = 0.1;
@@ -177,6 +178,7 @@ struct Haply::Connection final : WebSocketPeer {
       }
     for (const auto& heard : message.arms)
       if (heard.id == arm.ids.arm && heard.position_m) {
+        if (running_dry) continue;
         arm.reading.position_mm = *heard.position_m * kMmPerM;
         // An arm without a grip that tells how it is held has a position, and cannot hold a tool.
         if (!arm.has_orientation || seconds_since(arm.grip_ns) > kGripSilentS) continue;

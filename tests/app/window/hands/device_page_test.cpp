@@ -104,29 +104,49 @@ TEST(DevicePage, ShowsWhereBothArmsAreAndHowOftenTheySpeak) {
   EXPECT_EQ(arm_words({}, without.ids[0], desk.page->status()), "no service answers");
 }
 
+// From its beginning to its end; the largest force that was asked for, in newtons.
+double checked(AtTheDesk& desk) {
+  const auto now = [&] { return desk.page->seen().check; };
+  desk.page->check(1);
+  EXPECT_TRUE(until([&] { return now().step() == devices::CheckStep::reach; }));
+  EXPECT_NE(check_asks(now()).find("as far as it goes"), std::string::npos);
+  for (const glm::dvec3& corner : {glm::dvec3(-60, 40, -60), glm::dvec3(60, 160, 60)}) desk.go(1, corner);
+  EXPECT_TRUE(
+      until([&] { return now().step() == devices::CheckStep::push || now().step() == devices::CheckStep::done; }));
+  double most_n = 0.0;
+  EXPECT_TRUE(until([&] {
+    most_n = std::max(most_n, glm::length(desk.led->service().arm(1).asked_n));
+    EXPECT_EQ(desk.led->service().arm(0).asked_n, glm::dvec3(0.0)) << "the other arm is left alone";
+    return now().step() == devices::CheckStep::done;
+  })) << check_asks(now());
+  return most_n;
+}
+
 TEST(DevicePage, ASelfTestAsksForReachPushesAndSaysWhatItFound) {
   AtTheDesk desk;
   ASSERT_TRUE(desk.well());
-  desk.page->check(1);
-  ASSERT_TRUE(until([&] { return desk.page->seen().check.step() == devices::CheckStep::reach; }));
-  EXPECT_NE(check_asks(desk.page->seen().check).find("as far as it goes"), std::string::npos);
-  for (const glm::dvec3& corner : {glm::dvec3(-60, 40, -60), glm::dvec3(60, 160, 60)}) desk.go(1, corner);
-  ASSERT_TRUE(until([&] { return desk.page->seen().check.step() == devices::CheckStep::push; }));
-  double most_n = 0.0;
-  ASSERT_TRUE(until([&] {
-    most_n = std::max(most_n, glm::length(desk.led->service().arm(1).asked_n));
-    EXPECT_EQ(desk.led->service().arm(0).asked_n, glm::dvec3(0.0)) << "the other arm is left alone";
-    return desk.page->seen().check.step() == devices::CheckStep::done;
-  })) << check_asks(desk.page->seen().check);
-  EXPECT_NEAR(most_n, devices::kCheckForceN, 1e-9);
-  const devices::ArmCheck check = desk.page->seen().check;
-  if (check.lost() == devices::kMostLost) {  // a program too slow for an arm's milliseconds is told so
-#ifndef __SANITIZE_ADDRESS__
-    ADD_FAILURE() << "lost too often";
+  // A program too slow for an arm's milliseconds is told so: under sanitizers for good, else while the machine
+  // stalls, which may take minutes.
+#ifdef __SANITIZE_ADDRESS__
+  constexpr int kTries = 2;
+#else
+  constexpr int kTries = 30;
 #endif
+  double most_n = 0.0;
+  devices::ArmCheck check;
+  for (int tried = 0; tried < kTries && (tried == 0 || check.lost() == devices::kMostLost); ++tried) {
+    if (tried > 0) fixtures::let_pass(3.0);
+    most_n = checked(desk);
+    check = desk.page->seen().check;
+  }
+  if (check.lost() == devices::kMostLost) {
     EXPECT_EQ(check_asks(check), "This arm is not fit for an attempt.");
+#ifndef __SANITIZE_ADDRESS__
+    ADD_FAILURE() << "lost too often, each time";
+#endif
     return;
   }
+  EXPECT_NEAR(most_n, devices::kCheckForceN, 1e-9);
   EXPECT_TRUE(check.pushes_hold());
   const auto lines = check_lines(check);
   ASSERT_EQ(lines.size(), 5U);
