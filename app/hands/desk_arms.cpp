@@ -57,12 +57,13 @@ void DeskArms::read(bool needle_outside, bool probe_off, double elapsed_s, cases
     const devices::ArmReading& reading = readings_[side] = haply_.hand(side).poll();
     const cases::ToolPose& pose = hands_[side].advance(reading, is_needle ? needle_outside : probe_off, elapsed_s);
     (is_needle ? inputs.needle : inputs.probe) = pose;
-    const bool pressed = reading.healthy && reading.buttons[0];
+    // A moment of silence lets no button go, or one that is held down would be pressed anew after it.
+    const bool was_pressed = pressed_[side];
+    if (reading.healthy) pressed_[side] = reading.buttons[0];
     if (is_needle) {
-      inputs.fire = pressed;
+      inputs.fire = pressed_[side];
     } else {
-      if (pressed && !freeze_was_down_) frozen_ = !frozen_;
-      freeze_was_down_ = pressed;
+      if (pressed_[side] && !was_pressed) frozen_ = !frozen_;
       inputs.freeze = frozen_;
     }
     hands[side] = {pose, tool, hands_[side].healthy(), devices::delay_ticks(reading, haptics::kTickS)};

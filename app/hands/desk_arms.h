@@ -62,7 +62,8 @@ class DeskArms {
  private:
   haptics::Handedness handedness_;
   std::array<devices::ArmMapping, 2> hands_;
-  bool freeze_was_down_ = false, frozen_ = false;
+  std::array<bool, 2> pressed_{};  // as each arm last said
+  bool frozen_ = false;
   std::array<devices::ArmReading, 2> readings_{};
   ArmsWatch watch_;
   devices::Haply haply_;
