@@ -159,7 +159,7 @@ ArmsSaid arms_words(const ArmsHeld& arms) {
             true};
   if (const int late = which(arms.late); late >= 0)
     return {std::string(late == 2 ? "" : "the ") + kArms[late] + (late == 2 ? " answer" : " answers") +
-                " too late to push back: no force there",
+                " too late to push back: little or no force there",
             true};
   if (const int limit = which(arms.at_limit); limit >= 0)
     return {std::string(kArms[limit]) + (limit == 2 ? " at their" : " at its") +

@@ -42,7 +42,7 @@ bool limit_is_said(double held_back_n, double elapsed_s, double& left_s) noexcep
 }
 
 bool late_is_said(bool too_late, double elapsed_s, LateWatch& watch) noexcept {
-  watch.returning_s = too_late ? haptics::kReturnS : std::max(0.0, watch.returning_s - elapsed_s);
+  watch.returning_s = too_late ? haptics::kReturnS / 3.0 : std::max(0.0, watch.returning_s - elapsed_s);
   return lasts(watch.returning_s > 0.0, kSaidLateS, elapsed_s, watch.lasted_s);
 }
 

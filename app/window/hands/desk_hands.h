@@ -19,8 +19,9 @@ namespace seldinger::app {
 // once. Who answers now and then is silent, too: a moment of answers is worth kForgivenTimes as much silence.
 inline constexpr double kSaidLostS = 0.1, kForgivenTimes = 3.0;
 
-// One answer too late takes the force for haptics::kReturnS, so that a few of them a second take all of it: an arm
-// is late that has been without its whole force for so long (design), a moment of it counted as above.
+// One answer too late takes the force, which comes back over haptics::kReturnS: some ten of them a second take
+// nearly all of it. An arm is late that has been without a third of its force for so long (design), a moment of it
+// counted as above.
 inline constexpr double kSaidLateS = 1.0;
 
 // What is held back comes and goes with each layer; so long it is said (design), and what is less nobody feels:
@@ -32,8 +33,8 @@ inline constexpr double kSaidLimitS = 1.0, kFeltLessN = 0.1;
 bool limit_is_said(double held_back_n, double elapsed_s, double& left_s) noexcept;
 
 struct LateWatch {
-  double returning_s = 0.0;  // until the force that the last answer too late took is whole again
-  double lasted_s = 0.0;     // without the whole force
+  double returning_s = 0.0;  // until a third of the force that the last answer too late took is back
+  double lasted_s = 0.0;     // without that
 };
 // Whether an arm is said to be late in this tick; `too_late`: it answers, but not in time to give force.
 bool late_is_said(bool too_late, double elapsed_s, LateWatch& watch) noexcept;

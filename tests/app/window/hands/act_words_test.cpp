@@ -77,9 +77,9 @@ TEST(ActWords, OfTheArmsTellWhatStandsInTheWayFirst) {
   arms.at_limit[0] = true;
   EXPECT_EQ(arms_words(arms).words, "both arms at their limit: the tissue resists more than you feel");
   arms.late[0] = true;
-  EXPECT_EQ(arms_words(arms).words, "the left arm answers too late to push back: no force there");
+  EXPECT_EQ(arms_words(arms).words, "the left arm answers too late to push back: little or no force there");
   arms.late[1] = true;
-  EXPECT_EQ(arms_words(arms).words, "both arms answer too late to push back: no force there");
+  EXPECT_EQ(arms_words(arms).words, "both arms answer too late to push back: little or no force there");
   arms.lost[1] = true;
   EXPECT_EQ(arms_words(arms).words,
             "right arm lost: the needle stays where it is; move it with mouse and keys (Tab)");
