@@ -55,6 +55,12 @@ class TrainSizesTest : public testing::TestWithParam<double> {
     const Json wanted = {size.width, size.height};
     ASSERT_TRUE(fixtures::until([&] { return now().value("window_px", Json()) == wanted; })) << now();
   }
+  // Of the attempt that ended last: a machine with other work may be too slow for scatterers, and the debrief says so
+  // in a line that takes its place.
+  static bool speckle_was_simplified() {
+    const std::string id = library_->ask("attempt list")["attempts"][0]["attempt_id"];
+    return library_->ask("attempt show " + id)["conditions"]["speckle_fallback"];
+  }
   // On the screen that is up; the largest window is there again when it returns.
   void look(const std::string& screen, const Names& names) {
     for (const Size& size : kSizes) {
@@ -95,7 +101,8 @@ TEST_P(TrainSizesTest, EveryScreenIsUsableAndLooksAsItIsKept) {
   ASSERT_NO_FATAL_FAILURE(
       look("attempt", {"room", "picture", "F1  Probe checked", "F3  Aspirate", "F9  Sign out and finish"}));
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
-  ASSERT_NO_FATAL_FAILURE(look("debrief", {"Cases", "What is missing"}));
+  const std::string debrief = speckle_was_simplified() ? "debrief_simplified" : "debrief";
+  ASSERT_NO_FATAL_FAILURE(look(debrief, {"Cases", "What is missing"}));
 }
 
 // What is kept of one screen is not what is kept of another: a comparison that all pass would hold nothing.
