@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "sim/base/ascii.h"
 #include "sim/base/check.h"
 
 namespace seldinger::web {
@@ -21,14 +22,6 @@ constexpr std::array<std::string_view, 9> kKept = {"host",           "x-forwarde
 
 bool is_token(std::string_view text) {
   return !text.empty() && text.find_first_not_of(kTokenCharacters) == text.npos;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
 }
 
 std::string_view next_line(std::string_view& rest) {
@@ -62,7 +55,7 @@ int parse_request_line(std::string_view line, Request& request) {
 int parse_header(std::string_view line, Request& request) {
   const std::size_t colon = line.find(':');
   if (colon == line.npos || !is_token(line.substr(0, colon))) return 400;  // also a folded line
-  const std::string name = lower_case(line.substr(0, colon));
+  const std::string name = base::lower(line.substr(0, colon));
   std::string_view value = line.substr(colon + 1);
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!value.empty() && is_blank(value.front())) value.remove_prefix(1);

@@ -14,6 +14,7 @@
 #include "casedb/grading/curriculum.h"
 #include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::app {
 namespace {
@@ -24,13 +25,6 @@ using casedb::Role;
 // As every id is written: 8-4-4-4-12 hexadecimal digits.
 bool is_whole_id(std::string_view text) {
   return text.size() == 36 && text[8] == '-' && text[13] == '-' && text[18] == '-' && text[23] == '-';
-}
-
-std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return small;
 }
 
 // Who looks for something; none: the operator, who has the files.
@@ -150,11 +144,11 @@ base::Error ambiguous(const std::vector<std::string>& ids) {
 
 base::Result<std::string> id_of(std::string_view typed, const std::vector<Called>& known) {
   if (typed.empty()) return std::string();
-  const std::string wanted = in_small_letters(typed);
+  const std::string wanted = base::lower(typed);
   std::vector<std::string> of_title, begin_so;
   for (const Called& one : known) {
     if (one.id == typed) return one.id;
-    const std::string id = in_small_letters(one.id), title = in_small_letters(one.title);
+    const std::string id = base::lower(one.id), title = base::lower(one.title);
     if (title == wanted) of_title.push_back(one.id);
     if (id.starts_with(wanted) || title.starts_with(wanted)) begin_so.push_back(one.id);
   }

@@ -16,7 +16,7 @@ namespace seldinger::assessment::rating {
 struct Rating {
   std::string rater, view;
   Part part = Part::rated;
-  std::size_t number = 0;         // the how-many-eth of this rater
+  std::size_t number = 0;         // of this rater's ratings, in their order
   double score = 0.0;             // finite
   std::optional<double> known{};  // of the calibration set
 };

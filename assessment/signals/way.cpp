@@ -138,12 +138,12 @@ std::vector<Stretch> stretches_of(std::span<const WayPoint> way) {
     const WayPoint& now = way[i];
     const bool in_tissue = now.depth_mm > 0.0;
     if (now.first || stretches.empty()) {
-      stretches.push_back({{}, {}, in_tissue, false});
+      stretches.push_back({{}, {}, in_tissue});
     } else if (in_tissue != stretches.back().in_tissue) {
       const glm::dvec3 skin = at_skin(way[i - 1], now);
       stretches.back().points_mm.push_back(skin);
       stretches.back().needle_directions.push_back(now.needle_direction);
-      stretches.push_back({{skin}, {now.needle_direction}, in_tissue, true});
+      stretches.push_back({{skin}, {now.needle_direction}, in_tissue});
     }
     stretches.back().points_mm.push_back(now.lps_mm);
     stretches.back().needle_directions.push_back(now.needle_direction);

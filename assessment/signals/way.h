@@ -47,7 +47,6 @@ struct Stretch {
   std::vector<glm::dvec3> points_mm;
   std::vector<glm::dvec3> needle_directions;  // one per point
   bool in_tissue = false;
-  bool from_skin = false;  // it begins there
 };
 std::vector<Stretch> stretches_of(std::span<const WayPoint> way);
 

@@ -18,24 +18,19 @@ double student_t_quantile(double p, double df);
 // With the non-centrality `delta`.
 double noncentral_t_cdf(double t, double df, double delta);
 
-double f_cdf(double f, double df1, double df2);
 double f_upper(double f, double df1, double df2);
 double f_quantile(double p, double df1, double df2);
 double noncentral_f_cdf(double f, double df1, double df2, double lambda);
 
-double chi_squared_cdf(double x, double df);
 double chi_squared_upper(double x, double df);
 double chi_squared_quantile_of(double p, double df);
 double noncentral_chi_squared_cdf(double x, double df, double lambda);
 
 double beta_cdf(double x, double a, double b);
 double beta_quantile(double p, double a, double b);
-double gamma_quantile(double p, double shape, double scale);
-double gamma_upper(double x, double shape, double scale);
 
 double binomial_cdf(std::int64_t k, std::int64_t n, double p);
 double binomial_pdf(std::int64_t k, std::int64_t n, double p);
-double poisson_cdf(std::int64_t k, double mean);
 double poisson_pdf(std::int64_t k, double mean);
 // k marked among `draws` from `total` of which `marked` are.
 double hypergeometric_pdf(std::int64_t k, std::int64_t marked, std::int64_t draws, std::int64_t total);

@@ -5,6 +5,7 @@
 
 #include "casedb/export/uid.h"
 #include "casedb/import/privacy/basic_profile.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -28,15 +29,6 @@ bool is_text(const DicomElement& element) {
 
 bool is_time(const DicomElement& element) {
   return element.is("DA") || element.is("DT") || element.is("TM");
-}
-
-char lower(char c) noexcept {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) c = lower(c);
-  return text;
 }
 
 // Each value of a text with several keeps to the characters and the length of its VR (PS3.5 §6.2).
@@ -128,7 +120,7 @@ void DataSetCleaner::collect_words(const DicomDataSet& data_set) {
     std::string word;
     for (const char c : element.text() + "^") {
       if (c != '^' && c != '=' && c != '\\' && c != ' ' && c != ',') {
-        word += lower(c);
+        word += base::lower(c);
         continue;
       }
       if (word.size() >= kShortestWord && words_.size() < kMostWords) words_.push_back(word);
@@ -138,7 +130,7 @@ void DataSetCleaner::collect_words(const DicomDataSet& data_set) {
 }
 
 bool DataSetCleaner::repeats_patient(const std::string& text) const {
-  const std::string low = lower(text);
+  const std::string low = base::lower(text);
   return std::any_of(words_.begin(), words_.end(),
                      [&](const std::string& word) { return low.find(word) != std::string::npos; });
 }

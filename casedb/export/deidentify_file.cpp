@@ -12,6 +12,7 @@
 #include "casedb/import/files/byte_count.h"
 #include "casedb/import/jail/jail.h"
 #include "casedb/import/jail/unpacking.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -40,15 +41,11 @@ struct Parsed {
   DicomDataSet data_set;
 };
 
-bool is_capital(char c) noexcept {
-  return c >= 'A' && c <= 'Z';
-}
-
 // The meta group at the file's start; returns where the data set begins.
 base::Result<std::size_t> read_meta(std::string_view bytes, Parsed& parsed) {
   const std::size_t begin = bytes.size() >= 132 && std::memcmp(bytes.data() + 128, "DICM", 4) == 0 ? 132 : 0;
   if (begin == 0 && bytes[0] != 2) {  // old tools wrote neither preamble nor meta group
-    parsed.syntax = is_capital(bytes[4]) && is_capital(bytes[5]) ? kExplicitLittle : kImplicitLittle;
+    parsed.syntax = base::is_capital(bytes[4]) && base::is_capital(bytes[5]) ? kExplicitLittle : kImplicitLittle;
     return std::size_t{0};
   }
   // Up to the first element of another group; its length element may be missing or wrong.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/base/ascii.h"
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
@@ -17,10 +18,6 @@ constexpr std::string_view kItemBytes("\xFE\xFF\x00\xE0", 4);  // little endian
 
 const base::Error kTruncated{"truncated", "a file ends in the middle of an element"};
 const base::Error kDamaged{"damaged", "a file cannot be followed as DICOM"};
-
-bool is_upper(char c) noexcept {
-  return c >= 'A' && c <= 'Z';
-}
 
 // VRs with a length of two bytes (PS3.5 §7.1.2); those of the future have four.
 bool has_short_length(std::array<char, 2> vr) noexcept {
@@ -76,7 +73,7 @@ class Reader {
       length = take_u32(format.big_endian);
     } else {
       made.file_vr = {bytes_[at_], bytes_[at_ + 1]};
-      if (!is_upper(made.file_vr[0]) || !is_upper(made.file_vr[1])) return &kDamaged;
+      if (!base::is_capital(made.file_vr[0]) || !base::is_capital(made.file_vr[1])) return &kDamaged;
       at_ += 2;
       if (has_short_length(made.file_vr)) {
         length = take_u16(format.big_endian);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/base/ascii.h"
+
 namespace seldinger::casedb {
 namespace {
 
@@ -22,11 +24,7 @@ std::int64_t whole_seconds(std::int64_t duration_us) {
 }
 
 std::string folded_name(std::string_view name) {
-  std::string out(name.substr(0, 256));  // longer names do not exist: 64 characters of at most 4 bytes
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
+  return base::lower(name.substr(0, 256));  // longer names do not exist: 64 characters of at most 4 bytes
 }
 
 std::int64_t LoginDelays::begin(std::string_view name, std::string_view place, std::int64_t now_us) {

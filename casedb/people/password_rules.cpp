@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/ascii.h"
+
 namespace seldinger::casedb {
 namespace {
 
@@ -48,14 +50,7 @@ bool is_digit(char c) noexcept {
 // Bytes beyond ASCII are letters of somebody's.
 bool is_sign(char c) noexcept {
   const auto byte = static_cast<unsigned char>(c);
-  return byte < 0x80 && !is_digit(c) && !(c >= 'a' && c <= 'z') && !(c >= 'A' && c <= 'Z');
-}
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return small;
+  return byte < 0x80 && !is_digit(c) && !(c >= 'a' && c <= 'z') && !base::is_capital(c);
 }
 
 // A letter, or what is typed for it.
@@ -95,7 +90,7 @@ std::size_t run_at(std::string_view text) {
 // The name as it is, and its parts of three letters or more: "Jane Doe", "Jane", "Doe".
 std::vector<std::string> words_of(std::string_view login_name) {
   std::vector<std::string> words;
-  const std::string name = lower(login_name) + ' ';
+  const std::string name = base::lower(login_name) + ' ';
   for (std::size_t from = 0, at = 0; at < name.size(); ++at)
     if (is_sign(name[at])) {
       if (at - from >= 3) words.push_back(name.substr(from, at - from));
@@ -139,7 +134,7 @@ base::Result<void> check_password(std::string_view password, std::string_view lo
                                         [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
   if (static_cast<std::size_t>(characters) < kLeastPasswordCharacters || password.size() > kMostPasswordBytes)
     return base::Error{"weak_password", "a password has at least 8 characters and at most 128 bytes"};
-  const std::string small = lower(password);
+  const std::string small = base::lower(password);
   if (repeats(small))
     return base::Error{"weak_password",
                        "a few characters again and again are guessed first: choose another password"};

@@ -11,6 +11,7 @@
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
 #include "casedb/questionnaires/drawn_word.h"
+#include "sim/base/ascii.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::casedb {
@@ -225,7 +226,7 @@ std::vector<AskedRating> list_asked_ratings(Library& library, const std::string&
 std::string rater_secret(const std::string& typed_key) {
   std::string key;
   for (const char c : typed_key)
-    if (c != ' ' && c != '-') key += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (c != ' ' && c != '-') key += base::lower(c);
   return sha256_hex(std::as_bytes(std::span(key)));
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "reports/charts/svg_parts.h"
+
 namespace seldinger::reports {
 namespace {
 
@@ -17,10 +19,6 @@ std::string number(const char* format, double value) {
   char text[32];
   std::snprintf(text, sizeof text, format, value);
   return text;
-}
-
-std::string px(double value) {
-  return number("%.1f", value);
 }
 
 bool usable(const ForcePoint& point) {
@@ -49,22 +47,25 @@ struct Axis {
 
 void add_axes(Html& html, const Axis& x, const Axis& y) {
   for (int i = 0; i <= x.steps(); ++i) {
-    const std::string at = px(x.at(x.from + i * x.step));
-    html.raw("<line class=\"grid\" y1=\"").text(px(kTop)).raw("\" y2=\"").text(px(kHeight - kBottom));
+    const std::string at = svg_px(x.at(x.from + i * x.step));
+    html.raw("<line class=\"grid\" y1=\"").text(svg_px(kTop)).raw("\" y2=\"").text(svg_px(kHeight - kBottom));
     html.raw("\" x1=\"").text(at).raw("\" x2=\"").text(at).raw("\"/><text text-anchor=\"middle\" x=\"").text(at);
-    html.raw("\" y=\"").text(px(kHeight - kBottom + 16.0)).raw("\">").text(number("%g", x.from + i * x.step));
+    html.raw("\" y=\"").text(svg_px(kHeight - kBottom + 16.0)).raw("\">").text(number("%g", x.from + i * x.step));
     html.raw("</text>\n");
   }
   for (int i = 0; i <= y.steps(); ++i) {
     const double value = y.from + i * y.step;
-    html.raw("<line class=\"grid\" x1=\"").text(px(kLeft)).raw("\" x2=\"").text(px(kWidth - kRight));
-    html.raw("\" y1=\"").text(px(y.at(value))).raw("\" y2=\"").text(px(y.at(value)));
-    html.raw("\"/><text text-anchor=\"end\" x=\"").text(px(kLeft - 6.0)).raw("\" y=\"").text(px(y.at(value) + 4.0));
+    html.raw("<line class=\"grid\" x1=\"").text(svg_px(kLeft)).raw("\" x2=\"").text(svg_px(kWidth - kRight));
+    html.raw("\" y1=\"").text(svg_px(y.at(value))).raw("\" y2=\"").text(svg_px(y.at(value)));
+    html.raw("\"/><text text-anchor=\"end\" x=\"")
+        .text(svg_px(kLeft - 6.0))
+        .raw("\" y=\"")
+        .text(svg_px(y.at(value) + 4.0));
     html.raw("\">").text(number("%.3g", value)).raw("</text>\n");
   }
-  html.raw("<text text-anchor=\"middle\" x=\"").text(px(0.5 * (kLeft + kWidth - kRight))).raw("\" y=\"");
-  html.text(px(kHeight - 8.0)).raw("\">depth, mm</text><text text-anchor=\"middle\" transform=\"translate(14 ");
-  html.text(px(0.5 * (kTop + kHeight - kBottom))).raw(") rotate(-90)\">force, N</text>\n");
+  html.raw("<text text-anchor=\"middle\" x=\"").text(svg_px(0.5 * (kLeft + kWidth - kRight))).raw("\" y=\"");
+  html.text(svg_px(kHeight - 8.0)).raw("\">depth, mm</text><text text-anchor=\"middle\" transform=\"translate(14 ");
+  html.text(svg_px(0.5 * (kTop + kHeight - kBottom))).raw(") rotate(-90)\">force, N</text>\n");
 }
 
 // Its force at a depth, between the neighbours; nothing outside of it.
@@ -106,16 +107,16 @@ void add_chart(Html& html, ForceChart chart) {
   }
   if (count < 2) return;
   const Axis x(least_mm, most_mm, kLeft, kWidth - kRight), y(least_n, most_n, kHeight - kBottom, kTop);
-  html.raw("<section><h2>").text(chart.title).raw("</h2>\n<svg role=\"img\" viewBox=\"0 0 ").text(px(kWidth));
-  html.raw(" ").text(px(kHeight)).raw("\" aria-label=\"Force against depth, ").text(chart.title).raw("\">\n");
+  html.raw("<section><h2>").text(chart.title).raw("</h2>\n<svg role=\"img\" viewBox=\"0 0 ").text(svg_px(kWidth));
+  html.raw(" ").text(svg_px(kHeight)).raw("\" aria-label=\"Force against depth, ").text(chart.title).raw("\">\n");
   add_axes(html, x, y);
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     const char* colour = kColours[i % std::size(kColours)];
     html.raw("<polyline class=\"curve\" stroke=\"").text(colour).raw("\" points=\"");
     for (const ForcePoint& point : chart.curves[i].points)
-      html.text(px(x.at(point.depth_mm))).raw(",").text(px(y.at(point.force_n))).raw(" ");
+      html.text(svg_px(x.at(point.depth_mm))).raw(",").text(svg_px(y.at(point.force_n))).raw(" ");
     html.raw("\"/><text fill=\"").text(colour).raw("\" x=\"");
-    html.text(px(kLeft + 10.0 + 180.0 * static_cast<double>(i)))
+    html.text(svg_px(kLeft + 10.0 + 180.0 * static_cast<double>(i)))
         .raw("\" y=\"18\">")
         .text(chart.curves[i].name)
         .raw("</text>\n");

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <numeric>
 
+#include "reports/charts/svg_parts.h"
+
 namespace seldinger::reports {
 namespace {
 
@@ -13,12 +15,6 @@ constexpr double kWidth = 910.0, kHeight = 420.0, kLeft = 70.0, kRight = 240.0, 
 constexpr double kLabelHeight = 13.0;
 // Okabe and Ito's colours, told apart by all kinds of colour vision.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-
-std::string px(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
 
 std::string three_digits(double value) {
   char text[32];
@@ -60,22 +56,28 @@ const char* colour_of(const std::vector<std::string>& methods, const std::string
 
 void add_grid(Html& html, const LogAxis& x, const LogAxis& y, const std::string& error_unit) {
   for (int decade = x.from; decade <= x.to; ++decade) {
-    const std::string at = px(x.at(std::pow(10.0, decade)));
-    html.raw("<line class=\"grid\" y1=\"").text(px(kTop)).raw("\" y2=\"").text(px(kHeight - kBottom));
+    const std::string at = svg_px(x.at(std::pow(10.0, decade)));
+    html.raw("<line class=\"grid\" y1=\"").text(svg_px(kTop)).raw("\" y2=\"").text(svg_px(kHeight - kBottom));
     html.raw("\" x1=\"").text(at).raw("\" x2=\"").text(at).raw("\"/><text text-anchor=\"middle\" x=\"").text(at);
-    html.raw("\" y=\"").text(px(kHeight - kBottom + 16.0)).raw("\">").text(three_digits(std::pow(10.0, decade)));
+    html.raw("\" y=\"")
+        .text(svg_px(kHeight - kBottom + 16.0))
+        .raw("\">")
+        .text(three_digits(std::pow(10.0, decade)));
     html.raw("</text>\n");
   }
   for (int decade = y.from; decade <= y.to; ++decade) {
-    const std::string at = px(y.at(std::pow(10.0, decade)));
-    html.raw("<line class=\"grid\" x1=\"").text(px(kLeft)).raw("\" x2=\"").text(px(kWidth - kRight));
+    const std::string at = svg_px(y.at(std::pow(10.0, decade)));
+    html.raw("<line class=\"grid\" x1=\"").text(svg_px(kLeft)).raw("\" x2=\"").text(svg_px(kWidth - kRight));
     html.raw("\" y1=\"").text(at).raw("\" y2=\"").text(at).raw("\"/><text text-anchor=\"end\" x=\"");
-    html.text(px(kLeft - 6.0)).raw("\" y=\"").text(px(y.at(std::pow(10.0, decade)) + 4.0)).raw("\">");
+    html.text(svg_px(kLeft - 6.0)).raw("\" y=\"").text(svg_px(y.at(std::pow(10.0, decade)) + 4.0)).raw("\">");
     html.text(three_digits(std::pow(10.0, decade))).raw("</text>\n");
   }
-  html.raw("<text text-anchor=\"middle\" x=\"").text(px(0.5 * (kLeft + kWidth - kRight))).raw("\" y=\"");
-  html.text(px(kHeight - 8.0)).raw("\">time, ms</text><text text-anchor=\"middle\" transform=\"translate(14 ");
-  html.text(px(0.5 * (kTop + kHeight - kBottom))).raw(") rotate(-90)\">error, ").text(error_unit).raw("</text>\n");
+  html.raw("<text text-anchor=\"middle\" x=\"").text(svg_px(0.5 * (kLeft + kWidth - kRight))).raw("\" y=\"");
+  html.text(svg_px(kHeight - 8.0)).raw("\">time, ms</text><text text-anchor=\"middle\" transform=\"translate(14 ");
+  html.text(svg_px(0.5 * (kTop + kHeight - kBottom)))
+      .raw(") rotate(-90)\">error, ")
+      .text(error_unit)
+      .raw("</text>\n");
 }
 
 void add_chart(Html& html, const std::string& title, std::vector<FrontierPoint> points) {
@@ -91,12 +93,12 @@ void add_chart(Html& html, const std::string& title, std::vector<FrontierPoint> 
   const LogAxis x(times, kLeft, kWidth - kRight), y(errors, kHeight - kBottom, kTop);
   const std::vector<std::size_t> best = frontier_of(points);
 
-  html.raw("<section><h2>").text(title).raw("</h2>\n<svg role=\"img\" viewBox=\"0 0 ").text(px(kWidth));
-  html.raw(" ").text(px(kHeight)).raw("\" aria-label=\"Time against error, ").text(title).raw("\">\n");
+  html.raw("<section><h2>").text(title).raw("</h2>\n<svg role=\"img\" viewBox=\"0 0 ").text(svg_px(kWidth));
+  html.raw(" ").text(svg_px(kHeight)).raw("\" aria-label=\"Time against error, ").text(title).raw("\">\n");
   add_grid(html, x, y, points.front().error_unit);
   html.raw("<polyline class=\"frontier\" points=\"");
   for (const std::size_t i : best)
-    html.text(px(x.at(points[i].ms))).raw(",").text(px(y.at(points[i].error))).raw(" ");
+    html.text(svg_px(x.at(points[i].ms))).raw(",").text(svg_px(y.at(points[i].error))).raw(" ");
   html.raw("\"/>\n");
   // Labels stand right of the plot's points, moved down where they would lie on each other,
   // and so far up that all find room above the chart's end.
@@ -107,16 +109,16 @@ void add_chart(Html& html, const std::string& title, std::vector<FrontierPoint> 
     last_room_y += kLabelHeight;
     label_y = std::max(label_y + kLabelHeight, std::min(px_y, last_room_y));
     const char* colour = colour_of(methods, point.method);
-    const std::string label_x = px(kWidth - kRight + 14.0);
-    html.raw("<line class=\"leader\" x1=\"").text(px(px_x)).raw("\" y1=\"").text(px(px_y)).raw("\" x2=\"");
-    html.text(px(kWidth - kRight + 10.0))
+    const std::string label_x = svg_px(kWidth - kRight + 14.0);
+    html.raw("<line class=\"leader\" x1=\"").text(svg_px(px_x)).raw("\" y1=\"").text(svg_px(px_y)).raw("\" x2=\"");
+    html.text(svg_px(kWidth - kRight + 10.0))
         .raw("\" y2=\"")
-        .text(px(label_y - 1.0))
+        .text(svg_px(label_y - 1.0))
         .raw("\"/><circle r=\"4.5\" fill=\"");
-    html.text(colour).raw("\" cx=\"").text(px(px_x)).raw("\" cy=\"").text(px(px_y)).raw("\"><title>");
+    html.text(colour).raw("\" cx=\"").text(svg_px(px_x)).raw("\" cy=\"").text(svg_px(px_y)).raw("\"><title>");
     html.text(point.name).raw(": ").text(three_digits(point.ms)).raw(" ms, ").text(three_digits(point.error));
     html.raw("</title></circle><text fill=\"").text(colour).raw("\" x=\"").text(label_x).raw("\" y=\"");
-    html.text(px(label_y + 3.0)).raw("\">").text(point.name).raw("</text>\n");
+    html.text(svg_px(label_y + 3.0)).raw("\">").text(point.name).raw("</text>\n");
   }
   html.raw(
       "</svg>\n<details><summary>The chart as a table</summary><table><thead><tr><th>What</th><th>ms</th><th>");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "reports/words/metric_words.h"
+
 namespace seldinger::reports {
 
 std::string svg_px(double value) {
@@ -43,6 +45,10 @@ std::string tick_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", std::abs(value));
   return value < 0.0 ? "−" + std::string(text) : text;
+}
+
+std::string tick_text(double value, double step) {
+  return number_text(value, step < 1.0 ? std::min(3, static_cast<int>(std::ceil(-std::log10(step)))) : 0);
 }
 
 }  // namespace seldinger::reports

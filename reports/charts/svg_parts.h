@@ -17,6 +17,7 @@ void add_svg_text(Html& html, std::string_view anchor, double x, double y, std::
 
 // Round numbers, about 4 to 8 of them, that hold low to high: {0, 5, 10, 15, 20}.
 std::vector<double> round_ticks(double low, double high, double least_step = 0.0);
-std::string tick_text(double value);  // without needless digits, with a true minus sign
+std::string tick_text(double value);               // without needless digits, with a true minus sign
+std::string tick_text(double value, double step);  // with the digits that tell it from the next tick
 
 }  // namespace seldinger::reports

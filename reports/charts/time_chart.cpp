@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "reports/charts/svg_parts.h"
 #include "reports/charts/timeline.h"
 #include "reports/words/metric_words.h"
 #include "sim/base/check.h"
@@ -23,34 +24,25 @@ struct Axes {
   double y(double d_mm) const { return kPlotBottom - (kPlotBottom - kTop) * d_mm / top_mm; }
 };
 
-// SVG wants an ASCII minus; none of our coordinates is negative beyond rounding.
-std::string px(double value) {
-  return number_text(std::max(value, 0.0), 1);
-}
-
-std::string tick_text(double value, double step) {
-  return number_text(value, step < 1.0 ? std::min(3, static_cast<int>(std::ceil(-std::log10(step)))) : 0);
-}
-
 void add_ticks(Html& html, const Axes& axes) {
   const double step_mm = tick_step(axes.top_mm, 5);
   for (int i = 0; i * step_mm <= axes.top_mm * (1.0 + 1e-9); ++i) {
     const double d_mm = i * step_mm;
-    const std::string y = px(axes.y(d_mm));
+    const std::string y = svg_px(axes.y(d_mm));
     html.raw("<line class=\"grid\" x1=\"")
-        .text(px(kLeft))
+        .text(svg_px(kLeft))
         .raw("\" x2=\"")
-        .text(px(kWidth - kRight))
+        .text(svg_px(kWidth - kRight))
         .raw("\" y1=\"");
     html.text(y).raw("\" y2=\"").text(y).raw("\"/><text class=\"tick\" text-anchor=\"end\" x=\"");
-    html.text(px(kLeft - 6.0)).raw("\" y=\"").text(px(axes.y(d_mm) + 4.0)).raw("\">");
+    html.text(svg_px(kLeft - 6.0)).raw("\" y=\"").text(svg_px(axes.y(d_mm) + 4.0)).raw("\">");
     html.text(tick_text(d_mm, step_mm)).raw("</text>");
   }
   const double step_s = tick_step(axes.t1_s - axes.t0_s, 8);
   for (int i = 0; i * step_s <= (axes.t1_s - axes.t0_s) * (1.0 + 1e-9); ++i) {
     const double t_s = axes.t0_s + i * step_s;
-    html.raw("<text class=\"tick\" text-anchor=\"middle\" x=\"").text(px(axes.x(t_s))).raw("\" y=\"");
-    html.text(px(kStripBottom + 20.0)).raw("\">").text(tick_text(i * step_s, step_s)).raw("</text>");
+    html.raw("<text class=\"tick\" text-anchor=\"middle\" x=\"").text(svg_px(axes.x(t_s))).raw("\" y=\"");
+    html.text(svg_px(kStripBottom + 20.0)).raw("\">").text(tick_text(i * step_s, step_s)).raw("</text>");
   }
 }
 
@@ -114,9 +106,9 @@ Html time_chart(const cases::Recording& recording, const cases::Lesion& lesion) 
   const Axes axes{points.front().t_s, points.back().t_s, 1.05 * farthest_mm};
 
   html.raw("<figure class=\"chart\">\n<svg role=\"img\" aria-labelledby=\"chart-title chart-desc\" viewBox=\"0 0 ");
-  html.text(px(kWidth))
+  html.text(svg_px(kWidth))
       .raw(" ")
-      .text(px(kHeight))
+      .text(svg_px(kHeight))
       .raw("\">\n<title id=\"chart-title\">Distance of the tip from the target");
   html.raw("’s centre over time</title>\n<desc id=\"chart-desc\">From ");
   html.text(number_text(points.front().distance_mm, 1)).raw(" mm at the start to ");
@@ -127,35 +119,45 @@ Html time_chart(const cases::Recording& recording, const cases::Lesion& lesion) 
           "numbers.</desc>\n");
   // The target itself: within its radius of the centre.
   if (lesion.radius_mm > 0.0) {
-    html.raw("<rect class=\"target\" x=\"").text(px(kLeft)).raw("\" width=\"").text(px(kWidth - kLeft - kRight));
-    html.raw("\" y=\"").text(px(axes.y(lesion.radius_mm))).raw("\" height=\"");
-    html.text(px(kPlotBottom - axes.y(lesion.radius_mm))).raw("\"/>");
+    html.raw("<rect class=\"target\" x=\"")
+        .text(svg_px(kLeft))
+        .raw("\" width=\"")
+        .text(svg_px(kWidth - kLeft - kRight));
+    html.raw("\" y=\"").text(svg_px(axes.y(lesion.radius_mm))).raw("\" height=\"");
+    html.text(svg_px(kPlotBottom - axes.y(lesion.radius_mm))).raw("\"/>");
   }
   add_ticks(html, axes);
-  html.raw("<rect class=\"unseen\" x=\"").text(px(kLeft)).raw("\" width=\"").text(px(kWidth - kLeft - kRight));
-  html.raw("\" y=\"").text(px(kStripTop)).raw("\" height=\"").text(px(kStripBottom - kStripTop)).raw("\"/>");
+  html.raw("<rect class=\"unseen\" x=\"")
+      .text(svg_px(kLeft))
+      .raw("\" width=\"")
+      .text(svg_px(kWidth - kLeft - kRight));
+  html.raw("\" y=\"")
+      .text(svg_px(kStripTop))
+      .raw("\" height=\"")
+      .text(svg_px(kStripBottom - kStripTop))
+      .raw("\"/>");
   for (const Span& span : visible) {
     const double from_s = std::clamp(span.from_s, axes.t0_s, axes.t1_s);
     const double to_s = std::clamp(span.to_s, axes.t0_s, axes.t1_s);
     if (to_s <= from_s) continue;
-    html.raw("<rect class=\"seen\" x=\"").text(px(axes.x(from_s))).raw("\" width=\"");
-    html.text(px(axes.x(to_s) - axes.x(from_s))).raw("\" y=\"").text(px(kStripTop)).raw("\" height=\"");
-    html.text(px(kStripBottom - kStripTop)).raw("\"/>");
+    html.raw("<rect class=\"seen\" x=\"").text(svg_px(axes.x(from_s))).raw("\" width=\"");
+    html.text(svg_px(axes.x(to_s) - axes.x(from_s))).raw("\" y=\"").text(svg_px(kStripTop)).raw("\" height=\"");
+    html.text(svg_px(kStripBottom - kStripTop)).raw("\"/>");
   }
   html.raw("<polyline class=\"curve\" points=\"");
   for (const DistancePoint& point : points) {
-    html.text(px(axes.x(point.t_s))).raw(",").text(px(axes.y(point.distance_mm))).raw(" ");
+    html.text(svg_px(axes.x(point.t_s))).raw(",").text(svg_px(axes.y(point.distance_mm))).raw(" ");
   }
   html.raw("\"/>");
   if (recording.endpoint.has_value() && recording.endpoint->t_s >= axes.t0_s &&
       recording.endpoint->t_s <= axes.t1_s) {
-    const std::string x = px(axes.x(recording.endpoint->t_s));
-    html.raw("<line class=\"fire\" x1=\"").text(x).raw("\" x2=\"").text(x).raw("\" y1=\"").text(px(kTop));
-    html.raw("\" y2=\"").text(px(kStripBottom)).raw("\"/>");
+    const std::string x = svg_px(axes.x(recording.endpoint->t_s));
+    html.raw("<line class=\"fire\" x1=\"").text(x).raw("\" x2=\"").text(x).raw("\" y1=\"").text(svg_px(kTop));
+    html.raw("\" y2=\"").text(svg_px(kStripBottom)).raw("\"/>");
   }
-  html.raw("<text class=\"tick\" text-anchor=\"middle\" x=\"").text(px((kLeft + kWidth - kRight) / 2.0));
+  html.raw("<text class=\"tick\" text-anchor=\"middle\" x=\"").text(svg_px((kLeft + kWidth - kRight) / 2.0));
   html.raw("\" y=\"")
-      .text(px(kHeight - 8.0))
+      .text(svg_px(kHeight - 8.0))
       .raw("\">distance in mm, time in seconds since the start</text>\n</svg>\n<figcaption>");
   html.raw(
       "Line: distance of the tip from the target’s centre in mm. Shaded: inside the target’s "

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "reports/charts/svg_parts.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -13,16 +14,6 @@ namespace {
 constexpr double kWidth = 960.0, kLeft = 92.0, kRight = 24.0;
 constexpr double kTop = 30.0, kDepthHeight = 190.0, kForceHeight = 70.0, kRow = 18.0, kGap = 12.0;
 constexpr std::size_t kMostPoints = 900;
-
-// SVG wants an ASCII minus.
-std::string px(double value) {
-  std::string text = number_text(std::abs(value), 1);
-  return value < 0.0 ? "-" + text : text;
-}
-
-std::string tick_text(double value, double step) {
-  return number_text(value, step < 1.0 ? std::min(3, static_cast<int>(std::ceil(-std::log10(step)))) : 0);
-}
 
 class Drawing {
  public:
@@ -61,7 +52,10 @@ class Drawing {
       html_.raw("\" points=\"");
       std::size_t k = i;
       for (bool more = true; more;) {
-        html_.text(px(x(course_.points[k].t_s))).raw(",").text(px(y(course_.points[k].inserted_mm))).raw(" ");
+        html_.text(svg_px(x(course_.points[k].t_s)))
+            .raw(",")
+            .text(svg_px(y(course_.points[k].inserted_mm)))
+            .raw(" ");
         more = k + 1 < course_.points.size() && same(course_.points[k]);
         if (!more) break;
         std::size_t next = k + 1;
@@ -93,7 +87,7 @@ class Drawing {
           if (std::abs(axial ? course_.forces[k].axial_n : course_.forces[k].lateral_n) >
               std::abs(axial ? most.axial_n : most.lateral_n))
             most = course_.forces[k];
-        html_.text(px(x(most.t_s))).raw(",").text(px(y(axial ? most.axial_n : most.lateral_n))).raw(" ");
+        html_.text(svg_px(x(most.t_s))).raw(",").text(svg_px(y(axial ? most.axial_n : most.lateral_n))).raw(" ");
       }
       html_.raw("\"/>\n");
     }
@@ -124,7 +118,7 @@ class Drawing {
         if (to - from > 3.0)
           rect("lasting", from, to - from, top + 1.0, kRow - 6.0);
         else
-          html_.raw("<circle r=\"4\" cx=\"").text(px(from)).raw("\" cy=\"").text(px(top + 7.0)).raw("\"/>");
+          html_.raw("<circle r=\"4\" cx=\"").text(svg_px(from)).raw("\" cy=\"").text(svg_px(top + 7.0)).raw("\"/>");
         lower = from < free_from && !lower;
         text("mark-number", "middle", std::max(from, 0.5 * (from + to)), top + (lower ? 34.0 : 22.0),
              std::to_string(number));
@@ -159,16 +153,16 @@ class Drawing {
     return kLeft + (kWidth - kLeft - kRight) * (t_s - course_.t0_s) / length_s;
   }
   void line(const char* kind, double x1, double y1, double x2, double y2) {
-    html_.raw("<line class=\"").text(kind).raw("\" x1=\"").text(px(x1)).raw("\" y1=\"").text(px(y1));
-    html_.raw("\" x2=\"").text(px(x2)).raw("\" y2=\"").text(px(y2)).raw("\"/>\n");
+    html_.raw("<line class=\"").text(kind).raw("\" x1=\"").text(svg_px(x1)).raw("\" y1=\"").text(svg_px(y1));
+    html_.raw("\" x2=\"").text(svg_px(x2)).raw("\" y2=\"").text(svg_px(y2)).raw("\"/>\n");
   }
   void rect(const char* kind, double left, double width, double top, double height) {
-    html_.raw("<rect class=\"").text(kind).raw("\" x=\"").text(px(left)).raw("\" width=\"").text(px(width));
-    html_.raw("\" y=\"").text(px(top)).raw("\" height=\"").text(px(height)).raw("\"/>\n");
+    html_.raw("<rect class=\"").text(kind).raw("\" x=\"").text(svg_px(left)).raw("\" width=\"").text(svg_px(width));
+    html_.raw("\" y=\"").text(svg_px(top)).raw("\" height=\"").text(svg_px(height)).raw("\"/>\n");
   }
   void text(const char* kind, const char* anchor, double left, double baseline, const std::string& words) {
-    html_.raw("<text class=\"").text(kind).raw("\" text-anchor=\"").text(anchor).raw("\" x=\"").text(px(left));
-    html_.raw("\" y=\"").text(px(baseline)).raw("\">").text(words).raw("</text>\n");
+    html_.raw("<text class=\"").text(kind).raw("\" text-anchor=\"").text(anchor).raw("\" x=\"").text(svg_px(left));
+    html_.raw("\" y=\"").text(svg_px(baseline)).raw("\">").text(words).raw("</text>\n");
   }
 
   const Course& course_;
@@ -197,7 +191,11 @@ Html timeline(const Course& course, std::span<const double> moments_s) {
   drawing.draw_times(bottom, moments_s);
   html.raw(
       "<svg class=\"timeline\" role=\"img\" aria-label=\"Depth of the tip, what the picture showed, forces and ");
-  html.raw("events over time\" viewBox=\"0 0 ").text(px(kWidth)).raw(" ").text(px(bottom + 36.0)).raw("\">\n");
+  html.raw("events over time\" viewBox=\"0 0 ")
+      .text(svg_px(kWidth))
+      .raw(" ")
+      .text(svg_px(bottom + 36.0))
+      .raw("\">\n");
   html.add(body).raw("</svg>\n");
   return html;
 }

@@ -32,11 +32,11 @@ Html notes_table(const std::vector<casedb::StudyNote>& notes, bool looks) {
   return html.raw("</tbody></table>\n");
 }
 
+}  // namespace
+
 void add_fact_row(Html& html, std::string_view name, std::string_view value) {
   html.raw("<tr><th scope=\"row\">").text(name).raw("</th><td>").text(value).raw("</td></tr>\n");
 }
-
-}  // namespace
 
 Html provenance_section(const ValidityReport& report) {
   Html html;

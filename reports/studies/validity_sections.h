@@ -9,6 +9,8 @@ namespace seldinger::reports {
 // A panel of one source of validity, to be ended by </article>; and one that says why it has none.
 Html evidence_panel(std::string_view source, std::string_view title);
 Html no_evidence_yet(std::string_view source, std::string_view title, std::string_view what);
+// A row of a table of facts.
+void add_fact_row(Html& html, std::string_view name, std::string_view value);
 
 Html argument_section(const ValidityReport& report);
 Html conclusions_section(const ValidityReport& report);

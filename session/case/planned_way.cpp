@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kStepMm = 0.5;
 constexpr double kLeastMm = 0.5;  // of a stretch: what is shorter is a voxel's corner
-constexpr double kDeg = 180.0 / std::numbers::pi;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double angle_deg(double cosine) {
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDeg;
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
 }
 
 // Runs of the way where the CT says so.

@@ -30,7 +30,6 @@ class NeedleFlows {
                cases::NeedleFlow& flow) const noexcept;
 
   const tissue::Lumens& lumens() const noexcept { return lumens_; }
-  double bore_ml() const noexcept { return bore_ml_; }  // 0: nothing runs through this instrument
 
  private:
   void hear(const cases::Inputs& inputs, const cases::NeedleState& needle, std::int32_t lumen,
@@ -40,7 +39,7 @@ class NeedleFlows {
               cases::NeedleFlow& flow) const noexcept;
 
   tissue::Lumens lumens_;
-  double bore_ml_ = 0.0;
+  double bore_ml_ = 0.0;         // 0: nothing runs through this instrument
   double conductance_m3_ = 0.0;  // of the bore: flow is this times pressure over viscosity
 };
 

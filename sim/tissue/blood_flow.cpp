@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "sim/base/ascii.h"
 #include "sim/tissue/lumens.h"
 
 namespace seldinger::tissue {
@@ -98,9 +99,7 @@ void add_wider(const glm::dvec3& from_lps_mm, const glm::dvec3& along, double ra
 
 const FlowLaw* flow_law_of(volume::TissueClass tissue, std::string_view name) noexcept {
   const LumenContent content = content_of(tissue, name);
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string lower = base::lower(name);
   for (const FlowLaw& law : kFlowLaws)
     if (law.content == content && lower.find(law.word) != std::string::npos) return &law;
   return nullptr;

@@ -13,6 +13,7 @@
 #include <queue>
 #include <utility>
 
+#include "sim/base/ascii.h"
 #include "sim/case/paint.h"
 #include "sim/tissue/veins.h"
 
@@ -40,9 +41,7 @@ constexpr double kUrineMlS = 0.5 / 60.0, kBileMlS = 800.0 / 86400.0;
 constexpr double kBloodMmS = 150.0;
 
 bool says_any(std::string_view name, std::initializer_list<std::string_view> words) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string lower = base::lower(name);
   return std::any_of(words.begin(), words.end(),
                      [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }

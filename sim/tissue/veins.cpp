@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sim/base/ascii.h"
+
 namespace seldinger::tissue {
 namespace {
 
@@ -13,9 +15,7 @@ constexpr double kStrainMm = 0.5;    // over which strain is told
 }  // namespace
 
 bool says_vein(const std::string& name) {
-  std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string lower = base::lower(name);
   return lower.find("vein") != std::string::npos || lower.find("vena") != std::string::npos;
 }
 

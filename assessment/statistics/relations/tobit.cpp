@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "assessment/statistics/distributions.h"
@@ -23,7 +24,8 @@ double mills(double z) {
   return z > 30.0 ? z + 1.0 / z - 2.0 / (z * z * z) : normal_pdf(z) / normal_upper(z);
 }
 double log_upper(double z) {
-  return z > 30.0 ? -0.5 * z * z - std::log(mills(z)) - 0.5 * std::log(2.0 * M_PI) : std::log(normal_upper(z));
+  return z > 30.0 ? -0.5 * z * z - std::log(mills(z)) - 0.5 * std::log(2.0 * std::numbers::pi)
+                  : std::log(normal_upper(z));
 }
 
 // Olsen's parameters, in which the likelihood has one summit: both means and 1, all over σ.

@@ -4,14 +4,11 @@
 #include <array>
 #include <cstdio>
 
+#include "casedb/import/dicom/terms.h"
 #include "casedb/import/privacy/basic_profile.h"
 
 namespace seldinger::casedb {
 namespace {
-
-bool is_one_of(const std::string& value, std::span<const char* const> terms) {
-  return std::any_of(terms.begin(), terms.end(), [&](const char* term) { return value == term; });
-}
 
 // PS3.3 C.7.3.1.1.2.
 constexpr const char* kPositions[] = {"HFP", "HFS", "HFDR", "HFDL", "FFDR", "FFDL", "FFP",  "FFS",
@@ -63,7 +60,7 @@ std::string plain_number(double value) {
 template <const auto& kTerms>
 std::string one_of(const DicomFile& file, DicomTag tag) {
   const std::string value = file.text(tag);
-  return is_one_of(value, kTerms) ? value : "";
+  return is_term(value, kTerms) ? value : "";
 }
 
 // One number between two limits, written with six digits.
@@ -142,14 +139,14 @@ bool is_kernel_code(std::string_view text) {
 
 std::string kernel(const DicomFile& file, DicomTag tag) {
   const std::string value = file.text(tag);
-  return is_one_of(value, kKernelWords) || is_kernel_code(value) ? value : "";
+  return is_term(value, kKernelWords) || is_kernel_code(value) ? value : "";
 }
 
 // Which agent, how much and how it was given is free text; that there was one is not.
 std::string contrast(const DicomFile& file, DicomTag tag) {
   const std::string value = file.text(tag);
   static constexpr const char* kNone[] = {"NONE", "None", "none", "NO", "No", "no", "N"};
-  return value.empty() || is_one_of(value, kNone) ? "" : "given";
+  return value.empty() || is_term(value, kNone) ? "" : "given";
 }
 
 // Its first three parts, of PS3.3 C.8.2.1.1.1.
@@ -161,7 +158,7 @@ std::string image_type(const DicomFile& file, DicomTag tag) {
   for (int part = 0; part < 3 && at < value.size(); ++part) {
     const std::size_t end = value.find('\\', at);
     const std::string one = value.substr(at, end - at);
-    if (!is_one_of(one, kParts)) break;
+    if (!is_term(one, kParts)) break;
     kept += (kept.empty() ? "" : " ") + one;
     at = end + 1;
   }
@@ -234,7 +231,7 @@ std::vector<std::pair<std::string, std::string>> allowed_attributes(const DicomF
 }
 
 bool says_head(const DicomFile& file) {
-  return is_one_of(file.text(0x00180015), kHeadParts);
+  return is_term(file.text(0x00180015), kHeadParts);
 }
 
 std::vector<DroppedElement> dropped_elements(const DicomFile& file) {

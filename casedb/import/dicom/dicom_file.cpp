@@ -10,6 +10,7 @@
 #include "casedb/import/files/byte_count.h"
 #include "casedb/import/jail/jail.h"
 #include "casedb/import/jail/unpacking.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -48,10 +49,6 @@ bool is_among(DicomTag tag, const std::array<DicomTag, N>& tags) {
 
 bool is_wanted(DicomTag tag) {
   return is_among(tag, kWanted) || is_on_allow_list(tag);
-}
-
-bool is_upper(char c) noexcept {
-  return c >= 'A' && c <= 'Z';
 }
 
 struct Element {
@@ -113,8 +110,8 @@ class Walk {
     if (end - at_ < 8) return too_short(end);
     element = {};
     element.tag = u16(at_) << 16 | u16(at_ + 2);
-    const bool has_vr = format_.explicit_vr && (element.tag >> 16) != 0xFFFE && is_upper(letter(at_ + 4)) &&
-                        is_upper(letter(at_ + 5));
+    const bool has_vr = format_.explicit_vr && (element.tag >> 16) != 0xFFFE && base::is_capital(letter(at_ + 4)) &&
+                        base::is_capital(letter(at_ + 5));
     if (!has_vr) {  // also where a writer forgot one: a length that does not fit ends the walk
       element.length = u32(at_ + 4);
       at_ += 8;
@@ -253,13 +250,14 @@ bool has_preamble(const char* bytes, std::size_t size) noexcept {
 
 // A file without preamble, as old tools wrote it: it begins with the meta group,
 bool is_bare_meta_group(const char* bytes, std::size_t size) noexcept {
-  return size >= 16 && bytes[0] == 2 && bytes[1] == 0 && bytes[3] == 0 && is_upper(bytes[4]) && is_upper(bytes[5]);
+  return size >= 16 && bytes[0] == 2 && bytes[1] == 0 && bytes[3] == 0 && base::is_capital(bytes[4]) &&
+         base::is_capital(bytes[5]);
 }
 
 // or at once with the data set, little endian, in group 8.
 bool is_bare_data_set(const char* bytes, std::size_t size) noexcept {
   if (size < 16 || bytes[0] != 8 || bytes[1] != 0) return false;
-  if (is_upper(bytes[4]) && is_upper(bytes[5])) return true;
+  if (base::is_capital(bytes[4]) && base::is_capital(bytes[5])) return true;
   std::uint32_t length = 0;
   for (int i = 3; i >= 0; --i) length = length << 8 | static_cast<unsigned char>(bytes[4 + i]);
   return length <= 1024;
@@ -358,7 +356,8 @@ DicomFile read_dicom_file(const std::filesystem::path& path) {
     file.transfer_syntax = file.text(0x00020010);
     if (file.transfer_syntax.empty()) file.transfer_syntax = "1.2.840.10008.1.2";  // PS3.10: the default
   } else {
-    file.transfer_syntax = is_upper(letter(4)) && is_upper(letter(5)) ? "1.2.840.10008.1.2.1" : "1.2.840.10008.1.2";
+    file.transfer_syntax =
+        base::is_capital(letter(4)) && base::is_capital(letter(5)) ? "1.2.840.10008.1.2.1" : "1.2.840.10008.1.2";
   }
   if (file.transfer_syntax == "1.2.840.10008.1.2.1.99") {
     file.state = unpack_data_set(path, at, file);
@@ -368,7 +367,8 @@ DicomFile read_dicom_file(const std::filesystem::path& path) {
   file.big_endian = file.transfer_syntax == "1.2.840.10008.1.2.2";
   // Two capitals where an implicit length stands would promise 16 kB at least for the first, short element; so what
   // stands there decides, not the promise.
-  const bool explicit_vr = file.bytes.size() - at < 6 ? true : is_upper(letter(at + 4)) && is_upper(letter(at + 5));
+  const bool explicit_vr =
+      file.bytes.size() - at < 6 ? true : base::is_capital(letter(at + 4)) && base::is_capital(letter(at + 5));
   file.wrong_syntax = file.bytes.size() - at >= 6 && explicit_vr == (file.transfer_syntax == "1.2.840.10008.1.2");
   Walk(file, at, {explicit_vr, file.big_endian}).data_set();
   if (too_large) file.state = DicomState::too_large;

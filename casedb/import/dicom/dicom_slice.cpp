@@ -8,16 +8,13 @@
 
 #include "casedb/import/dicom/frame_pixels.h"
 #include "casedb/import/dicom/image_kind.h"
+#include "casedb/import/dicom/terms.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::casedb {
 namespace {
 
 constexpr int kMostPixels = 4096;  // along one side
-
-bool is_any_of(const std::string& value, std::span<const char* const> terms) {
-  return std::any_of(terms.begin(), terms.end(), [&](const char* term) { return value == term; });
-}
 
 bool has_part(const std::string& image_type, const char* part) {
   return ("\\" + image_type + "\\").find(std::string("\\") + part + "\\") != std::string::npos;
@@ -88,7 +85,7 @@ void read_values(const DicomFile& file, DicomSlice& slice) {
   // PS3.3 §C.11.1.1.2: other quantities than attenuation. Unspecified (US), modified (HU_MOD) and private ones may
   // be HU, and only warn.
   static constexpr std::array<const char*, 6> kOtherQuantities = {"OD", "MGML", "Z_EFF", "ED", "EDW", "PCT"};
-  if (is_any_of(type, kOtherQuantities)) slice.problems.push_back({"not_hu", "holds another quantity than HU"});
+  if (is_term(type, kOtherQuantities)) slice.problems.push_back({"not_hu", "holds another quantity than HU"});
   if (const auto first = file.unsigned_short(0x00280120)) {
     const int last = file.unsigned_short(0x00280121).value_or(*first);
     const auto value = [&](int bits) { return slice.is_signed && bits >= 0x8000 ? bits - 0x10000 : bits; };
@@ -99,7 +96,7 @@ void read_values(const DicomFile& file, DicomSlice& slice) {
 bool is_lossy_syntax(const std::string& syntax) {
   static constexpr std::array<const char*, 4> kLossy = {"1.2.840.10008.1.2.4.50", "1.2.840.10008.1.2.4.51",
                                                         "1.2.840.10008.1.2.4.81", "1.2.840.10008.1.2.4.91"};
-  return is_any_of(syntax, kLossy);
+  return is_term(syntax, kLossy);
 }
 
 }  // namespace

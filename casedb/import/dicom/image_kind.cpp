@@ -7,15 +7,10 @@
 #include <vector>
 
 #include "casedb/import/dicom/dicom_file.h"
+#include "casedb/import/dicom/terms.h"
 
 namespace seldinger::casedb {
 namespace {
-
-using Terms = std::span<const char* const>;
-
-bool is_term(const std::string& value, Terms terms) {
-  return std::any_of(terms.begin(), terms.end(), [&](const char* term) { return value == term; });
-}
 
 bool names_any(const std::vector<std::string>& words, Terms terms) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return is_term(word, terms); });

@@ -11,6 +11,7 @@
 #include "casedb/import/files/byte_count.h"
 #include "casedb/import/files/number_text.h"
 #include "casedb/import/files/problems.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -30,9 +31,7 @@ struct Found {
 };
 
 std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return ending;
+  return base::lower(path.extension().string());
 }
 
 void look_at_other(const std::filesystem::path& path, Found& found) {

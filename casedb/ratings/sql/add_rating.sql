@@ -1,3 +1,3 @@
--- Who rates what, and the how-many-eth it is.
+-- Who rates what, and which of the rater's ratings it is.
 INSERT INTO rating (response_id, round_id, rater, number, view_id, part)
 VALUES (:response_id, :round_id, :rater, :number, :view_id, :part)

@@ -98,10 +98,6 @@ double light_around(const cases::Case& scene, const RoomFrame& frame, const glm:
 
 }  // namespace
 
-cases::Mesh clustered(const cases::Mesh& mesh, double cube_mm) {
-  return cluster(mesh, cube_mm).mesh;
-}
-
 PatientForms patient_forms(const cases::Case& scene, const RoomFrame& frame, std::size_t most_triangles) {
   const cases::Mesh& whole = scene.skin;
   PatientForms forms;

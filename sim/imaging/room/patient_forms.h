@@ -21,8 +21,4 @@ struct PatientForms {
 // has a skin index.
 PatientForms patient_forms(const cases::Case& scene, const RoomFrame& frame, std::size_t most_triangles);
 
-// A mesh's triangles when all vertices of a cube of this side are one, in their middle; those at the rim between
-// skin and cut are kept apart from others.
-cases::Mesh clustered(const cases::Mesh& mesh, double cube_mm);
-
 }  // namespace seldinger::imaging

@@ -12,7 +12,7 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kRadians = std::numbers::pi / 180.0;
 
 double far_of(double distance_mm) {
   return distance_mm + 8000.0;  // the room's far corner
@@ -213,8 +213,8 @@ void orbit(RoomCamera& camera, const RoomFrame& frame, double right_deg, double 
   const double distance_mm = glm::distance(camera.eye_lps_mm, camera.target_lps_mm);
   const glm::dvec3 back = (camera.eye_lps_mm - camera.target_lps_mm) / distance_mm;
   const double rise = std::asin(std::clamp(glm::dot(back, frame.up), -1.0, 1.0));
-  const double round = std::atan2(glm::dot(back, frame.head), glm::dot(back, frame.across)) + kDeg * right_deg;
-  const double risen = std::clamp(rise + kDeg * up_deg, -80.0 * kDeg, 85.0 * kDeg);
+  const double round = std::atan2(glm::dot(back, frame.head), glm::dot(back, frame.across)) + kRadians * right_deg;
+  const double risen = std::clamp(rise + kRadians * up_deg, -80.0 * kRadians, 85.0 * kRadians);
   camera.eye_lps_mm =
       camera.target_lps_mm + distance_mm * frame.lps(std::cos(risen) * std::cos(round),
                                                      std::cos(risen) * std::sin(round), std::sin(risen));
@@ -224,7 +224,7 @@ void orbit(RoomCamera& camera, const RoomFrame& frame, double right_deg, double 
 void pan(RoomCamera& camera, double right, double up) {
   const glm::dmat3 axes = axes_of(camera);
   const double height_mm =
-      2.0 * std::tan(0.5 * kDeg * camera.height_deg) * glm::distance(camera.eye_lps_mm, camera.target_lps_mm);
+      2.0 * std::tan(0.5 * kRadians * camera.height_deg) * glm::distance(camera.eye_lps_mm, camera.target_lps_mm);
   const glm::dvec3 way = height_mm * (axes[0] * right + axes[1] * up);
   camera.eye_lps_mm += way;
   camera.target_lps_mm += way;
@@ -244,7 +244,7 @@ RoomProjection projection_of(const RoomCamera& camera, int eye, double width_per
   p.eye_from_lps = glm::dmat4(glm::transpose(axes));
   p.eye_from_lps[3] = glm::dvec4(-(glm::transpose(axes) * p.eye_lps_mm), 1.0);
   constexpr double near_mm = 5.0;  // nothing that is looked at comes as near: stay_clear, stay_off_tools
-  const double half_height = near_mm * std::tan(0.5 * kDeg * camera.height_deg);
+  const double half_height = near_mm * std::tan(0.5 * kRadians * camera.height_deg);
   const double half_width = half_height * width_per_height;
   const double askew = aside_mm * near_mm / distance_mm;
   p.clip_from_eye = glm::frustum(-half_width - askew, half_width - askew, -half_height, half_height, near_mm,
