@@ -6,29 +6,67 @@
 #include <glm/common.hpp>
 
 namespace seldinger::volume {
+namespace {
+
+// Of a slice's body: the cells it spans, and those that touch the left and the right face of what was scanned.
+struct Section {
+  glm::ivec2 low, high{-1};
+  double middle = 0.0, cells = 0.0, at_first = 0.0, at_last = 0.0;
+};
+
+Section section_of(const OrganGrid& grid, const Lattice& lattice, int k) {
+  const glm::ivec3& n = lattice.size();
+  Section made{.low = {n.x, n.y}};
+  for (int j = 0; j < n.y; ++j)
+    for (int i = 0; i < n.x; ++i) {
+      if (grid.body[lattice.at({i, j, k})] == 0) continue;
+      made.low = glm::min(made.low, glm::ivec2(i, j)), made.high = glm::max(made.high, glm::ivec2(i, j));
+      made.middle += i, made.cells += 1.0;
+      made.at_first += i == 0 ? 1.0 : 0.0;
+      made.at_last += i == n.x - 1 ? 1.0 : 0.0;
+    }
+  if (made.cells > 0.0) made.middle /= made.cells;
+  return made;
+}
+
+// Whether the middle of what is seen is the patient's: not where more of one side is cut off than of the other. A
+// trunk is about an ellipse; where a face cuts it so and so high, so much of that half's width is left. Of a cut
+// beyond the middle the same would be said: what is seen is then deeper than wide, and a trunk is not.
+bool shows_its_middle(const Section& section) {
+  constexpr double kMostUneven = 0.35;  // of the half width: the middle of what is seen is 30 mm off at most
+  constexpr double kCut = 0.1;          // of the depth; less is a flank or an arm that touches
+  const glm::dvec2 spans = glm::dvec2(section.high - section.low) + 1.0;
+  const auto left = [&](double cut) { return std::sqrt(std::max(0.0, 1.0 - cut * cut)); };
+  const double first = section.at_first / spans.y, last = section.at_last / spans.y;
+  if (std::max(first, last) < kCut) return true;
+  return spans.x >= spans.y && std::abs(left(first) - left(last)) <= kMostUneven;
+}
+
+}  // namespace
 
 std::vector<glm::dvec2> middle_of_back(const OrganGrid& grid) {
   constexpr double kAsideMm = 40.0;
   constexpr int kAround = 8;
+  constexpr double kMostUnevenSlices = 0.25;  // two legs of which one is cut seem even
   const Lattice lattice(grid.volume.size_voxels);
   const glm::ivec3& n = lattice.size();
   std::vector<glm::dvec3> sums(static_cast<std::size_t>(n.z));  // x, y, count
+  int of_body = 0, uneven = 0;
   for (int k = 0; k < n.z; ++k) {
-    glm::ivec2 low(n.x, n.y), high(-1);
-    double middle = 0.0, count = 0.0;
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i)
-        if (grid.body[lattice.at({i, j, k})] != 0) {
-          low = glm::min(low, glm::ivec2(i, j)), high = glm::max(high, glm::ivec2(i, j));
-          middle += i, count += 1.0;
-        }
-    if (count == 0.0) continue;
-    middle /= count;
+    const Section section = section_of(grid, lattice, k);
+    if (section.cells == 0.0) continue;
+    ++of_body;
+    if (!shows_its_middle(section)) {
+      ++uneven;
+      continue;
+    }
+    const glm::ivec2 &low = section.low, &high = section.high;
     for (int j = (low.y + high.y) / 2; j <= high.y; ++j)
       for (int i = low.x; i <= high.x; ++i)
-        if (grid.bone[lattice.at({i, j, k})] != 0 && std::abs(i - middle) * kOrganGridMm <= kAsideMm)
+        if (grid.bone[lattice.at({i, j, k})] != 0 && std::abs(i - section.middle) * kOrganGridMm <= kAsideMm)
           sums[static_cast<std::size_t>(k)] += glm::dvec3(i, j, 1);
   }
+  if (uneven > kMostUnevenSlices * of_body) return {};
   std::vector<std::optional<glm::dvec2>> found(sums.size());
   for (int k = 0; k < n.z; ++k) {
     glm::dvec3 sum(0.0);
