@@ -507,8 +507,8 @@ constexpr ErrorCode kImportCodes[] = {
     {"lossy", kWarns | kRefuses, "Compressed with loss: up to 8:1 a warning; above, or labelled lossless, refused.",
      "Give the original series."},
     {"no_rescale", kWarns | kRefuses,
-     "Slope or intercept is missing: 1 and 0 are used. Refused where nothing is air, or where a face or no body is "
-     "found: then nobody can know what the values mean.",
+     "Slope or intercept is missing: 1 and 0 are used. Refused where nothing is air, where a face or no body is "
+     "found, or where only some slices lack it: then nobody can know what the values mean.",
      "Export the series again."},
     {"bad_rescale", kRefuses, "Slope or intercept cannot be used.", "Export the series again."},
     {"not_hu", kWarns | kRefuses,

@@ -39,9 +39,16 @@ std::string normalised(const Source& source) {
          ": a mask, or a picture scaled for display or learning, and no HU";
 }
 
+// What lies outside the field of view was padded, whatever the values mean.
+bool shows_air(const Source& source) {
+  const std::vector<std::int16_t>& hu = source.volume.hu;
+  return std::any_of(hu.begin(), hu.end(),
+                     [](std::int16_t one) { return one > volume::kAirHu && one <= kAirBelowHu; });
+}
+
 std::string no_rescale(const Source& source) {
-  if (!has_warning(source, "no_rescale") || hu_range(source).first <= kAirBelowHu) return {};
-  return "rescale slope or intercept is missing, and nothing is at " + std::to_string(kAirBelowHu) +
+  if (!has_warning(source, "no_rescale") || shows_air(source)) return {};
+  return "rescale slope or intercept is missing, and nothing but padding is at " + std::to_string(kAirBelowHu) +
          " HU or below: the values are not HU";
 }
 
@@ -90,7 +97,7 @@ const std::vector<CtRule>& all_rules() {
       {CtVerdict::refuses, "normalised", "all values lie from −1 to 1, as in a mask or a scaled picture",
        normalised},
       {CtVerdict::refuses, "no_rescale",
-       "DICOM without rescale slope or intercept that has nothing at " + air +
+       "DICOM without rescale slope or intercept that has nothing but padding at " + air +
            " or below, or in which a face or no body is found",
        no_rescale},
       {CtVerdict::warns, "no_rescale", "DICOM without rescale slope or intercept: 1 and 0 are taken", nullptr},

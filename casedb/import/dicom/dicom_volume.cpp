@@ -55,6 +55,17 @@ void judge_lossy(const Slices& slices, Problems& problems, Warnings& warnings) {
     warnings.push_back({"lossy", text + ": HU are close to the scanner's, not the same"});
 }
 
+// Where only some slices lack a rescale, the 1 and 0 that are taken for them are no others' than theirs.
+void judge_rescale(const Slices& slices, Problems& problems) {
+  const std::size_t lack = count_of(slices, &DicomSlice::no_rescale);
+  const bool others = std::any_of(slices.begin(), slices.end(), [](const DicomSlice& slice) {
+    return !slice.no_rescale && (slice.slope != 1.0 || slice.intercept != 0.0);
+  });
+  if (lack > 0 && others)
+    problems.add("no_rescale", "rescale slope or intercept is missing in " + std::to_string(lack) + " of " +
+                                   count_text(slices.size(), "slice") + ": their values are not the others' HU");
+}
+
 void judge_values(const Slices& slices, Warnings& warnings) {
   const auto say = [&](bool DicomSlice::*flag, const char* code, const std::string& text) {
     if (const std::size_t count = count_of(slices, flag); count > 0)
@@ -201,6 +212,7 @@ base::Result<Source> volume_of(Slices slices, Problems problems, Warnings warnin
   judge_identity(slices, problems);
   order_slices(slices, problems, warnings);
   judge_lossy(slices, problems, warnings);
+  judge_rescale(slices, problems);
   judge_values(slices, warnings);
   if (!problems.empty()) return problems.error();
   SliceReader reader;

@@ -21,7 +21,7 @@ class ImportRefusals : public casedb::ImportCase {
     return made ? "" : made.error().code;
   }
   // Slices of a volume whose stored values are HU + 1024, as scanners write them.
-  void write_slices(const volume::Volume& volume, bool with_rescale) const {
+  void write_slices(const volume::Volume& volume, const std::function<bool(int slice)>& with_rescale) const {
     const glm::ivec3 size = volume.size_voxels;
     for (int k = 0; k < size.z; ++k) {
       std::vector<int> stored;
@@ -33,7 +33,7 @@ class ImportRefusals : public casedb::ImportCase {
           .text(0x00280030, "DS", "2.5\\2.5")
           .text(0x00180050, "DS", "3")
           .text(0x00281052, "DS", "-1024");
-      if (!with_rescale) file.remove(0x00281052).remove(0x00281053);
+      if (!with_rescale(k)) file.remove(0x00281052).remove(0x00281053);
       write(casedb::numbered("series/s", k), file.bytes());
     }
   }
@@ -85,19 +85,32 @@ TEST_F(ImportRefusals, SlicesOf30MmAreRefusedAndThickOnesTold) {
   EXPECT_TRUE(made("5 5 10")->warnings.empty());
 }
 
+TEST_F(ImportRefusals, ARescaleThatOnlySomeSlicesLackIsRefused) {
+  volume::Volume block =
+      volume::make_volume({20, 20, 12}, glm::dvec3(2.5, 2.5, 3.0), glm::dmat3(1.0), glm::dvec3(0.0));
+  for (std::size_t i = 0; i < block.hu.size(); ++i) block.hu[i] = i % 20 > 4 && i % 20 < 15 ? 40 : -1000;
+  write_slices(block, [](int slice) { return slice != 7; });
+  const auto refused = import(folder_ / "series");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "no_rescale");
+  EXPECT_NE(refused.error().text.find("in 1 of 12 slices"), std::string::npos) << refused.error().text;
+}
+
 // Stored values without their rescale are 1024 too high: soft tissue looked like bone, and the refusal spoke of a
 // face.
 TEST_F(ImportRefusals, AMissingRescaleIsNamedBeforeAFaceIs) {
+  const auto all = [](int) { return true; };
+  const auto none = [](int) { return false; };
   casedb::HeadView view;
   view.from_z_mm = -260.0;
   volume::Volume head = casedb::head_volume(view);
-  write_slices(head, true);
+  write_slices(head, all);
   EXPECT_EQ(code(folder_ / "series"), "face");
-  write_slices(head, false);  // nothing below 0: surely not HU
+  write_slices(head, none);  // nothing below 0: surely not HU
   EXPECT_EQ(code(folder_ / "series"), "no_rescale");
   // Values that pass for HU, because they are some: the face is found, and the doubt comes first.
   for (std::int16_t& hu : head.hu) hu = static_cast<std::int16_t>(hu - 1024);
-  write_slices(head, false);
+  write_slices(head, none);
   const auto refused = import(folder_ / "series");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, "no_rescale");

@@ -66,6 +66,8 @@ TEST(CtRules, WithoutRescaleThereMustBeAir) {
   EXPECT_EQ(verdict(source), "no_rescale");
   for (std::int16_t& hu : source.volume.hu) hu = std::max<std::int16_t>(hu, -199);
   EXPECT_EQ(verdict(source), "refused no_rescale");
+  source.volume.hu[0] = volume::kAirHu;  // padding
+  EXPECT_EQ(verdict(source), "refused no_rescale");
   source.volume.hu[0] = -200;
   EXPECT_EQ(verdict(source), "no_rescale");
 }
