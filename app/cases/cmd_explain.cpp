@@ -9,6 +9,7 @@
 #include "app/cli/file.h"
 #include "app/replay/png.h"
 #include "casedb/cases/authoring.h"
+#include "casedb/import/ct_rules.h"
 #include "session/case/case_build.h"
 #include "sim/volume/organs/find_organs.h"
 
@@ -19,6 +20,18 @@ std::string listed(const std::vector<std::string>& names) {
   std::string words;
   for (const std::string& one : names) words += (words.empty() ? "" : ", ") + one;
   return words.empty() ? "no vessel" : words;
+}
+
+// What its pictures hold by that law, and at what cost where it has one (docs/benchmarks/README.md).
+const char* law_text(cases::Modality modality, cases::SightLaw law) {
+  if (modality == cases::Modality::xray)
+    return law >= cases::SightLaw::scatter
+               ? ": pictures include scatter from the patient; a narrower field is clearer"
+               : ": pictures leave out scatter from the patient";
+  if (modality != cases::Modality::ultrasound) return "";
+  return law >= cases::SightLaw::clutter   ? ": pictures have artefacts and clutter, a tenth of a picture's time"
+         : law >= cases::SightLaw::scatter ? ": pictures have artefacts of sound, no clutter"
+                                           : ": pictures have no artefacts of sound and no clutter";
 }
 
 int run_case_explain(const Arguments& arguments) {
@@ -58,10 +71,9 @@ int run_case_explain(const Arguments& arguments) {
   std::fputs(tissue_text(tissue).c_str(), stdout);
   if (looked_for) std::fputs(organs_text(*organs).c_str(), stdout);
   std::printf("law of sight     %s%s\n", base::name_of(cases::kSightLawNames, row->sight_law).data(),
-              row->modality != cases::Modality::xray ? ""
-              : row->sight_law >= cases::SightLaw::scatter
-                  ? ": pictures include scatter from the patient; a narrower field is clearer"
-                  : ": pictures leave out scatter from the patient");
+              law_text(row->modality, row->sight_law));
+  if (row->modality == cases::Modality::xray)
+    if (const auto thin = casedb::thin_slab(*volume)) std::printf("%-16s %s\n", "field", thin->text.c_str());
   for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
   if (row->modality == cases::Modality::ultrasound)
     std::printf("colour Doppler   flow in %s%s\n", listed(needs.flowing).c_str(),
