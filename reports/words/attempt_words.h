@@ -33,7 +33,7 @@ std::string lesion_text(const cases::Lesion& lesion);        // "LPS (12.0, −3
 std::string picture_text(const cases::Picture& picture);     // "MPR, 150 mm wide, 150 mm deep"; "Fluoroscopy"
 std::string approach_text(cases::Approach approach);         // "In plane"
 std::string position_text(cases::PatientPosition position);  // "on the left side"
-// "Interrupted, and gone on with after 12 min."; empty: it was not, or nobody knows.
+// "Interrupted, and resumed after 12 min."; empty: it was not, or nobody knows.
 std::string away_text(const casedb::AttemptHead& attempt);
 std::string person_text(const std::string& person_id);  // "Person 3f20ab": no name
 std::string case_text(const std::string& case_id);      // "Case 3f20ab": no title

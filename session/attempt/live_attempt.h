@@ -79,7 +79,7 @@ class LiveAttempt {
   casedb::AttemptHead head_;
   const cases::Case& scene_;
   Keep keep_;
-  std::optional<InterruptedAttempt> before_;  // what is gone on with
+  std::optional<InterruptedAttempt> before_;  // what is resumed
 };
 
 }  // namespace seldinger::session

@@ -135,7 +135,7 @@ TEST(AttemptPage, TellsForHowLongItLayInterrupted) {
   AttemptView view = sample_attempt();
   EXPECT_THAT(attempt_page(kMentor, view, nullptr), Not(HasSubstr("Interrupted")));
   view.row.away_s = 754.0;
-  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("Interrupted, and gone on with after 13 min."));
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("Interrupted, and resumed after 13 min."));
 }
 
 // Before, the page did not tell of the steps at all.
@@ -210,7 +210,7 @@ TEST(AttemptPage, SaysUnderWhichConditionsItWasMade) {
   EXPECT_THAT(html,
               HasSubstr("Conditions: simulated hands; no needle guide; 2 pauses, 41 s; interrupted for 90 s."));
   EXPECT_THAT(html, HasSubstr("34.6 s, without 41.2 s of pauses"));
-  EXPECT_THAT(html, HasSubstr("Interrupted, and gone on with after 90 s."));
+  EXPECT_THAT(html, HasSubstr("Interrupted, and resumed after 90 s."));
   EXPECT_THAT(html, HasSubstr("<dt>Needle guide used</dt><dd>no"));
   EXPECT_THAT(html, HasSubstr("&lt;scatterers&gt;"));
   EXPECT_THAT(html, Not(HasSubstr("Window&#39;s width"))) << "what is not known is not listed";

@@ -107,7 +107,7 @@ void PersonAttempt::take_up_tools(bool left_handed) {
   });
 }
 
-// A new one, or the one that is gone on with, replayed.
+// A new one, or the one that is resumed, replayed.
 base::Result<session::LiveAttempt> PersonAttempt::live(casedb::Library& library) {
   if (!resumed_)
     return session::LiveAttempt(library, wanted_.program,

@@ -94,7 +94,7 @@ class PersonAttempt {
   // Into the next tick in which nothing else is said, with a length or (0) without; false: too much was said at
   // once, and this is not.
   bool say(cases::EventKind kind, double length_mm = 0.0) noexcept;
-  // From `running` on: what was said before, of an attempt that is gone on with; in its order.
+  // From `running` on: what was said before, of an attempt that is resumed; in its order.
   const std::vector<cases::EventKind>& said_before() const noexcept { return said_before_; }
   // No time goes by, and hands are still.
   void pause(bool paused) noexcept { paused_ = paused; }
@@ -167,7 +167,7 @@ class PersonAttempt {
   std::mutex mutex_;
   std::condition_variable begun_;
   bool begin_ = false, gone_ = false;
-  std::optional<std::string> resumed_;  // the attempt that is gone on with
+  std::optional<std::string> resumed_;  // the attempt that is resumed
   std::vector<cases::EventKind> said_before_;
   bool left_handed_ = false;
   std::thread thread_;  // last: it uses the rest

@@ -153,7 +153,7 @@ class Trainer {
   const std::string& chosen_probe() const noexcept { return probe_; }
 
   // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet, or a probe
-  // is to be chosen. An attempt at the case that was interrupted is closed: it will not be gone on with.
+  // is to be chosen. An attempt at the case that was interrupted is closed: it will not be resumed.
   bool begin(bool left_handed);
   // The account's attempt at the chosen case that a program left behind when it died; nothing: there is none.
   const std::optional<casedb::OpenAttempt>& interrupted() const noexcept { return interrupted_; }

@@ -53,7 +53,7 @@ TEST(ReplaySheet, ANameOpensWhatItMeasures) {
   EXPECT_EQ(replay_sheet(sheet).find("Interrupted"), std::string::npos);
   sheet.attempt.row.away_s = 30.0;
   const std::string page = replay_sheet(sheet);
-  EXPECT_NE(page.find("Interrupted, and gone on with after 30 s."), std::string::npos);
+  EXPECT_NE(page.find("Interrupted, and resumed after 30 s."), std::string::npos);
   const std::string measured = page.substr(page.find("What was measured"));
   EXPECT_GT(count(measured, "<th scope=\"row\">"), 4U);
   EXPECT_EQ(count(measured, "<th scope=\"row\">"),

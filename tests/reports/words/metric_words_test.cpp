@@ -72,7 +72,7 @@ TEST(Times, AnInterruptionIsToldInTheUnitOneWouldSay) {
                                       {5.0 * 3600.0, "5 hours"},
                                       {3.2 * 86400.0, "3 days"}}) {
     attempt.away_s = away_s;
-    EXPECT_EQ(away_text(attempt), std::string("Interrupted, and gone on with after ") + words + ".");
+    EXPECT_EQ(away_text(attempt), std::string("Interrupted, and resumed after ") + words + ".");
   }
 }
 

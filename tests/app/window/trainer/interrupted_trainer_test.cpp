@@ -1,4 +1,4 @@
-// An attempt at the workstation that was interrupted: offered to who made it, gone on with, closed or refused.
+// An attempt at the workstation that was interrupted: offered to whoever made it, resumed, closed or refused.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
