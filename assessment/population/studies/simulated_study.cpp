@@ -1,6 +1,7 @@
 #include "assessment/population/studies/simulated_study.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "assessment/population/streams.h"
@@ -9,7 +10,8 @@
 namespace seldinger::assessment::population {
 namespace {
 
-constexpr std::uint64_t kTruth = 0;  // the number of the study that tells the truth: none of those drawn
+constexpr std::uint64_t kTruth = 0;        // the number of the study that tells the truth: none of those drawn
+constexpr std::uint64_t kRatersOrder = 3;  // of a rater's streams, after those of drawn_rater
 
 std::vector<MetricValue> metrics_of(const SurrogateMark& mark, const Values& values) {
   std::vector<MetricValue> metrics;
@@ -30,8 +32,14 @@ std::string case_of(const study::Plan& plan) {
   return plan.primary.front().case_id;
 }
 
-void add_visits(const study::Plan& plan, const World& world, const Surrogate& surrogate, StudiedPerson& one,
-                const std::vector<Rater>& raters, std::vector<std::uint64_t>& rated, SimulatedStudy& made) {
+// An attempt as raters see it: by whom (a place in the study's people), at which visit, how able they were then.
+struct Seen {
+  std::size_t person = 0, visit = 0;
+  Abilities ability{};
+};
+
+void add_visits(const study::Plan& plan, const Surrogate& surrogate, const StudiedPerson& one, SimulatedStudy& made,
+                std::vector<Seen>& seen) {
   study::StudyPerson& data = made.data.emplace_back();
   data.name = one.name;
   data.group = one.group;
@@ -50,13 +58,22 @@ void add_visits(const study::Plan& plan, const World& world, const Surrogate& su
     attempt.hand = "simulated";
     if (mishaps_on(one.person, occasion).device_lost_s) attempt.cut_off = "the device was lost";
     attempt.metrics = metrics_of(surrogate.mark(), surrogate.draw(one.person, occasion));
-    if (world.raters == 0) continue;
-    const std::size_t rater = rated.size() == 0 ? 0 : made.data.size() % world.raters;
+    seen.push_back({made.data.size() - 1, visit, ability_on(one.person, occasion)});
+  }
+}
+
+// A rater rates every attempt, in an order of their own: what drift adds is no group's more than the other's.
+void add_ratings(const Rater& rater, std::size_t number, const std::vector<Seen>& seen, SimulatedStudy& made) {
+  std::vector<std::size_t> order(seen.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t which) { return stream_of(rater.key, Drawn::rater, kRatersOrder, which); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  for (std::size_t rated = 0; rated < order.size(); ++rated) {
+    const Seen& one = seen[order[rated]];
+    const StudiedPerson& person = made.people[one.person];
     for (std::size_t item = 0; item < rated_items().size(); ++item)
       made.ratings.push_back(
-          {one.name, visit, rater + 1, item,
-           rating_of(raters[rater], one.person, ability_on(one.person, occasion), item, rated[rater])});
-    ++rated[rater];
+          {person.name, one.visit, number, item, rating_of(rater, person.person, one.ability, item, rated)});
   }
 }
 
@@ -73,9 +90,7 @@ SimulatedStudy simulated_study(const study::Plan& plan, const World& world, cons
   CHECK(world.groups.size() == plan.groups.size());
   const std::uint64_t study_key = base::hash_combine(base::hash_combine(0x7374756479ULL, seed), number);
   SimulatedStudy made;
-  std::vector<Rater> raters;
-  for (std::size_t r = 1; r <= world.raters; ++r) raters.push_back(drawn_rater(study_key, r));
-  std::vector<std::uint64_t> rated(world.raters);
+  std::vector<Seen> seen;
   for (std::size_t g = 0; g < world.groups.size(); ++g)
     for (std::size_t p = 1; p <= world.per_group; ++p) {
       StudiedPerson& one = made.people.emplace_back();
@@ -87,8 +102,9 @@ SimulatedStudy simulated_study(const study::Plan& plan, const World& world, cons
       const double added = effect_of(study_key, "site", world.sites, one.site, world.site_sd) +
                            effect_of(study_key, "device", world.devices, one.device, world.device_sd);
       for (double& ability : one.person.ability) ability += added;
-      add_visits(plan, world, surrogate, one, raters, rated, made);
+      add_visits(plan, surrogate, one, made, seen);
     }
+  for (std::size_t r = 1; r <= world.raters; ++r) add_ratings(drawn_rater(study_key, r), r, seen, made);
   return made;
 }
 

@@ -35,7 +35,7 @@ struct Rating {
 struct SimulatedStudy {
   std::vector<StudiedPerson> people;
   std::vector<study::StudyPerson> data;  // of the same people, as the analysis takes it
-  std::vector<Rating> ratings;
+  std::vector<Rating> ratings;           // of each attempt, by every rater; a rater's in the order they were given
 };
 // The `number`-th study of a seed, from 1. Everybody makes an attempt at each visit to which they come, at the
 // plan's only case.

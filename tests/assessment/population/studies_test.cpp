@@ -4,7 +4,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <set>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "assessment/population/studies/dose_response.h"
 #include "assessment/population/studies/simulated_study.h"
@@ -112,21 +116,44 @@ TEST(SimulatedStudies, HaveTheSitesDevicesVisitsAndRatersThatWerePlanned) {
   ASSERT_EQ(made.people.size(), 24U);
   ASSERT_EQ(made.data.size(), 24U);
   std::set<std::size_t> sites, devices;
-  std::set<std::size_t> raters;
   for (const StudiedPerson& one : made.people) {
     sites.insert(one.site);
     devices.insert(one.device);
   }
-  for (const Rating& one : made.ratings) raters.insert(one.rater);
   EXPECT_EQ(sites.size(), 3U);
   EXPECT_EQ(devices.size(), 2U);
-  EXPECT_EQ(raters.size(), 2U);
-  EXPECT_EQ(made.ratings.size(), 24U * rated_items().size());
+  EXPECT_EQ(made.ratings.size(), 24U * 2U * rated_items().size());
   for (const auto& person : made.data)
     for (const auto& attempt : person.attempts) EXPECT_TRUE(attempt.synthetic);
   // Another number is another study, the same the same.
   EXPECT_EQ(simulated_study(plan(), world, fitted(), 1, 1).people[5].person.ability, made.people[5].person.ability);
   EXPECT_NE(simulated_study(plan(), world, fitted(), 1, 2).people[5].person.ability, made.people[5].person.ability);
+}
+
+// Each item of each attempt once by each rater; and no rater rates one group after the other, which would make the
+// drift of raters a difference between groups.
+TEST(SimulatedStudies, EveryRaterRatesEveryAttemptInAnOrderOfTheirOwn) {
+  World world = world_of(0.0, 1.2, 12);
+  world.raters = 3;
+  const SimulatedStudy made = simulated_study(plan(), world, fitted(), 1, 1);
+  std::set<std::tuple<std::string, std::size_t, std::size_t, std::size_t>> rated;
+  std::map<std::size_t, std::vector<std::string>> order;
+  for (const Rating& one : made.ratings) {
+    EXPECT_TRUE(rated.emplace(one.person, one.visit, one.rater, one.item).second) << one.person;
+    if (one.item == 0) order[one.rater].push_back(one.person);
+  }
+  std::size_t attempts = 0;
+  for (const auto& person : made.data) attempts += person.attempts.size();
+  ASSERT_EQ(attempts, 24U);
+  EXPECT_EQ(rated.size(), attempts * 3U * rated_items().size());
+  ASSERT_EQ(order.size(), 3U);
+  EXPECT_NE(order[1], order[2]);
+  for (const auto& [rater, people] : order) {
+    std::size_t first_group = 0;  // among the first half
+    for (std::size_t i = 0; i < 12; ++i) first_group += people[i].starts_with("S1-") ? 1 : 0;
+    // Of 12 drawn from 12 and 12: 6 in the mean, a standard deviation of 1.25. One group after the other makes 0 or 12.
+    EXPECT_NEAR(static_cast<double>(first_group), 6.0, 5.0) << rater;
+  }
 }
 
 }  // namespace
