@@ -99,8 +99,10 @@ SimulatedStudy simulated_study(const study::Plan& plan, const World& world, cons
       one.name = "S" + std::to_string(g + 1) + "-" + std::to_string(p);
       one.site = (p - 1) % world.sites + 1;
       one.device = (p - 1) / world.sites % world.devices + 1;
-      const double added = effect_of(study_key, "site", world.sites, one.site, world.site_sd) +
-                           effect_of(study_key, "device", world.devices, one.device, world.device_sd);
+      const std::size_t device_of_all = (one.site - 1) * world.devices + one.device;
+      const double added =
+          effect_of(study_key, "site", world.sites, one.site, world.site_sd) +
+          effect_of(study_key, "device", world.sites * world.devices, device_of_all, world.device_sd);
       for (double& ability : one.person.ability) ability += added;
       add_visits(plan, surrogate, one, made, seen);
     }

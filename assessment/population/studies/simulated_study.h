@@ -18,14 +18,16 @@ namespace seldinger::assessment::population {
 struct World {
   std::vector<Group> groups;  // one for each of the plan's, in its order
   std::size_t per_group = 30;
-  std::size_t sites = 1, devices = 1, raters = 0;  // people are dealt to them in turn
-  double site_sd = 0.2, device_sd = 0.1;           // of what each adds to every ability of its people
+  std::size_t sites = 1;
+  std::size_t devices = 1;  // at each site its own; people are dealt to sites and devices in turn
+  std::size_t raters = 0;
+  double site_sd = 0.2, device_sd = 0.1;  // of what each adds to every ability of its people
 };
 
 struct StudiedPerson {
   Person person;
   std::string name, group;
-  std::size_t site = 1, device = 1;
+  std::size_t site = 1, device = 1;  // the device's number at the site
 };
 struct Rating {
   std::string person;

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "assessment/population/studies/dose_response.h"
@@ -130,6 +132,28 @@ TEST(SimulatedStudies, HaveTheSitesDevicesVisitsAndRatersThatWerePlanned) {
   EXPECT_NE(simulated_study(plan(), world, fitted(), 1, 2).people[5].person.ability, made.people[5].person.ability);
 }
 
+// What a world without differences between devices lacks is what the devices add.
+TEST(SimulatedStudies, ADeviceIsAtOneSiteAndAddsTheSameToAllItsPeople) {
+  World world = world_of(0.0, 1.2, 24);
+  world.sites = 3;
+  world.devices = 2;
+  World alike = world;
+  alike.device_sd = 0.0;
+  const SimulatedStudy made = simulated_study(plan(), world, fitted(), 1, 1);
+  const SimulatedStudy without = simulated_study(plan(), alike, fitted(), 1, 1);
+  std::map<std::pair<std::size_t, std::size_t>, double> added;
+  for (std::size_t i = 0; i < made.people.size(); ++i) {
+    const StudiedPerson& one = made.people[i];
+    const double more = one.person.ability[0] - without.people[i].person.ability[0];
+    const auto known = added.emplace(std::pair(one.site, one.device), more).first;
+    EXPECT_NEAR(more, known->second, 1e-12) << one.name;
+  }
+  ASSERT_EQ(added.size(), 6U);
+  for (auto a = added.begin(); a != added.end(); ++a)
+    for (auto b = std::next(a); b != added.end(); ++b)
+      EXPECT_GT(std::abs(a->second - b->second), 1e-6) << "two devices, one of them at another site";
+}
+
 // Each item of each attempt once by each rater; and no rater rates one group after the other, which would make the
 // drift of raters a difference between groups.
 TEST(SimulatedStudies, EveryRaterRatesEveryAttemptInAnOrderOfTheirOwn) {
@@ -151,7 +175,8 @@ TEST(SimulatedStudies, EveryRaterRatesEveryAttemptInAnOrderOfTheirOwn) {
   for (const auto& [rater, people] : order) {
     std::size_t first_group = 0;  // among the first half
     for (std::size_t i = 0; i < 12; ++i) first_group += people[i].starts_with("S1-") ? 1 : 0;
-    // Of 12 drawn from 12 and 12: 6 in the mean, a standard deviation of 1.25. One group after the other makes 0 or 12.
+    // Of 12 drawn from 12 and 12: 6 in the mean, a standard deviation of 1.25. One group after the other makes 0
+    // or 12.
     EXPECT_NEAR(static_cast<double>(first_group), 6.0, 5.0) << rater;
   }
 }
