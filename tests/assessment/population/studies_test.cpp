@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -152,6 +153,95 @@ TEST(SimulatedStudies, ADeviceIsAtOneSiteAndAddsTheSameToAllItsPeople) {
   for (auto a = added.begin(); a != added.end(); ++a)
     for (auto b = std::next(a); b != added.end(); ++b)
       EXPECT_GT(std::abs(a->second - b->second), 1e-6) << "two devices, one of them at another site";
+}
+
+study::Plan plan_of_three_visits() {
+  study::Plan three = plan();
+  three.visits = {{"v", 0.0, 2.0}, {"week", 7.0, 9.0}, {"fortnight", 14.0, 16.0}};
+  return three;
+}
+
+// Everybody comes at first; who stays away once does not come back; the less able stay away more often: each visit
+// with the probability 1 / (1 + exp(3 + .5 of the mean ability)).
+TEST(SimulatedStudies, PeopleComeToEachVisitUntilTheyDropOut) {
+  const study::Plan three = plan_of_three_visits();
+  World world = world_of(0.0, 1.2, 4000);
+  world.raters = 1;
+  const SimulatedStudy made = simulated_study(three, world, fitted(), 2, 1);
+  double expected[2] = {}, variance[2] = {}, lost[2] = {};
+  std::size_t attempts = 0;
+  for (std::size_t i = 0; i < made.people.size(); ++i) {
+    const auto& visits = made.data[i].attempts;
+    ASSERT_GE(visits.size(), 1U);
+    ASSERT_LE(visits.size(), 3U);
+    for (std::size_t v = 0; v < visits.size(); ++v) EXPECT_EQ(visits[v].day, 1.0 + 7.0 * static_cast<double>(v));
+    attempts += visits.size();
+    double mean = 0.0;
+    for (const double one : made.people[i].person.ability) mean += one / 4.0;
+    const double stays = 1.0 - 1.0 / (1.0 + std::exp(3.0 + 0.5 * mean));
+    const std::size_t group = i / world.per_group;
+    expected[group] += 1.0 - stays * stays;
+    variance[group] += (1.0 - stays * stays) * stays * stays;
+    lost[group] += visits.size() < 3 ? 1.0 : 0.0;
+  }
+  for (const std::size_t group : {0U, 1U})
+    EXPECT_NEAR(lost[group], expected[group], 4.0 * std::sqrt(variance[group]));
+  EXPECT_GT(lost[0], lost[1]);
+  EXPECT_EQ(made.ratings.size(), attempts * rated_items().size()) << "an attempt that was not made is not rated";
+}
+
+// An outcome of the last visit is of that visit's attempts alone; who dropped out is absent, and left out as
+// planned.
+TEST(SimulatedStudies, WhoDroppedOutIsAbsentAtTheLastVisit) {
+  study::Plan three = plan_of_three_visits();
+  three.primary.resize(1);
+  three.primary[0].visit = "fortnight";
+  const SimulatedStudy made = simulated_study(three, world_of(0.0, 1.2, 200), fitted(), 2, 1);
+  const study::StudyResult result = study::analyse(three, made.data);
+  ASSERT_EQ(result.primary.size(), 1U);
+  std::size_t absent = 0, seen = 0;
+  for (std::size_t i = 0; i < made.people.size(); ++i) {
+    const study::PersonValue& one = result.primary[0].people[i];
+    ASSERT_EQ(one.name, made.people[i].name);
+    const auto& visits = made.data[i].attempts;
+    if (visits.size() < 3) ++absent;
+    std::optional<double> there;
+    if (visits.size() == 3 && visits[2].cut_off.empty())
+      for (const MetricValue& metric : visits[2].metrics)
+        if (metric.id == "tip_target_dist") there = metric.value;
+    EXPECT_EQ(one.standing, there ? study::Standing::value : study::Standing::absent) << one.name;
+    if (!there) continue;
+    ++seen;
+    EXPECT_EQ(one.attempts, 1U);
+    EXPECT_EQ(one.value, *there);
+  }
+  EXPECT_GT(absent, 5U) << "about one in fifteen";
+  EXPECT_GT(seen, 300U);
+  EXPECT_TRUE(result.primary[0].answer.estimable());
+}
+
+// Those who come to all three are on the third visit what practice has made of them: of a rate of .12 and a ceiling
+// of .8, two attempts are worth about .16, which is .065 of the logarithm of distance.
+TEST(SimulatedStudies, PracticeOfEarlierVisitsCounts) {
+  const SimulatedStudy made = simulated_study(plan_of_three_visits(), world_of(0.0, 0.0, 6000), fitted(), 2, 1);
+  std::vector<double> nearer;
+  for (const auto& person : made.data) {
+    if (person.attempts.size() < 3) continue;
+    std::optional<double> first, last;
+    for (std::size_t m = 0; m < person.attempts[0].metrics.size(); ++m)
+      if (person.attempts[0].metrics[m].id == "tip_target_dist") {
+        first = person.attempts[0].metrics[m].value;
+        last = person.attempts[2].metrics[m].value;
+      }
+    if (first && last) nearer.push_back(std::log(*first) - std::log(*last));
+  }
+  ASSERT_GT(nearer.size(), 8000U);
+  double mean = 0.0, square = 0.0;
+  for (const double one : nearer) mean += one / static_cast<double>(nearer.size());
+  for (const double one : nearer) square += (one - mean) * (one - mean);
+  const double error = std::sqrt(square) / static_cast<double>(nearer.size());
+  EXPECT_NEAR(mean, 0.065, 4.0 * error + 0.01);
+  EXPECT_GT(mean, 4.0 * error);
 }
 
 // Each item of each attempt once by each rater; and no rater rates one group after the other, which would make the
