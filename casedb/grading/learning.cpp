@@ -47,8 +47,7 @@ class Courses {
 
 std::vector<LearningAttempt> read_learning(Library& library, Learners learners, bool with_metrics) {
   const Snapshot one_state(library.database());
-  std::set<std::string> simulated;
-  for (const SimulatedTruth& one : list_simulated_truths(library)) simulated.insert(one.person_id);
+  const std::set<std::string> simulated = simulated_people(library);
   Courses courses(library);
   for (std::size_t first = 0;; first += kAtATime) {
     std::vector<AttemptRow> rows = list_attempts(library, first, kAtATime);

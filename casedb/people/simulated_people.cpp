@@ -86,6 +86,13 @@ bool is_simulated(Library& library, const std::string& person_id) {
   return question(library.database(), "simulated_person").bind("person_id", person_id).step();
 }
 
+std::set<std::string> simulated_people(Library& library) {
+  std::set<std::string> people;
+  for (Statement rows = question(library.database(), "simulated_people"); rows.step();)
+    people.insert(rows.text("person_id"));
+  return people;
+}
+
 population::Person simulated_person_of(Library& library, const SimulatedTruth& truth) {
   // What is not planted by the group is the seed's and the number's alone.
   population::Person person = population::drawn_person({truth.group, {}, 0.0}, truth.seed, truth.number);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ std::string simulated_person_id(const assessment::population::Person& person);
 // facts that such a person tells (casedb/people/facts.h). Answers the person's id.
 std::string simulated_person(Library& library, const assessment::population::Person& person, std::uint64_t seed);
 bool is_simulated(Library& library, const std::string& person_id);
+std::set<std::string> simulated_people(Library& library);             // by their ids
 std::vector<SimulatedTruth> list_simulated_truths(Library& library);  // by group, seed and number
 // Whoever it is the truth of, with the years that this library has of them.
 assessment::population::Person simulated_person_of(Library& library, const SimulatedTruth& truth);

@@ -6,6 +6,7 @@
 
 #include "casedb/database/audit.h"
 #include "casedb/database/sqlite.h"
+#include "casedb/people/simulated_people.h"
 #include "tests/casedb/graded_library.h"
 
 namespace seldinger::casedb {
@@ -46,6 +47,23 @@ TEST_F(LearningTest, OfOnePersonIsTheirPartOfEverybodys) {
   EXPECT_EQ(toms[0].task.case_id, case_id_);
   EXPECT_EQ(toms[0].task.lesion_id, lesion_id_);
   EXPECT_TRUE(learning_attempts_of(library_, "nobody").empty());
+}
+
+// Who is simulated is said by the person, not by what was planted in them: that table may as well not be there.
+TEST_F(LearningTest, OfSimulatedPeopleIsWhatTheyDidThemselves) {
+  const auto drawn = assessment::population::drawn_person(*assessment::population::named_group("novice"), 7, 1);
+  const std::string simulated = simulated_person(library_, drawn, 7), tom = user("Tom", Role::trainee);
+  NewAttempt one = new_attempt(simulated, 1.0, 20.0);
+  one.operator_name = "novice";
+  const auto theirs = add_attempt(library_, one);
+  ASSERT_TRUE(theirs.has_value());
+  one.person_id = tom;  // in Tom's name
+  ASSERT_TRUE(add_attempt(library_, one).has_value());
+  attempt(tom, 1.0, 20.0);
+  attempt(std::nullopt, 1.0, 20.0);
+  library_.database().run("DROP TABLE simulated_truth");
+  EXPECT_EQ(ids_of(learning_attempts(library_, Learners::simulated)), std::vector<std::string>{*theirs});
+  EXPECT_EQ(ids_of(learning_verdicts(library_, Learners::simulated)), std::vector<std::string>{*theirs});
 }
 
 TEST_F(LearningTest, TheMarkIsAnotherOneByWhatConcernsItAlone) {

@@ -43,6 +43,7 @@ TEST_F(SimulatedPeopleTest, AreOnceInALibraryAndTheSameInEvery) {
   const auto truths = list_simulated_truths(library_);
   ASSERT_EQ(truths.size(), 2U);
   EXPECT_EQ(truths[0].person_id, first);
+  EXPECT_EQ(simulated_people(library_), (std::set<std::string>{first, simulated_person(library_, novice(2), 7)}));
   EXPECT_EQ(truths[0].ability, novice(1).ability);
   EXPECT_EQ(truths[0].strategy, novice(1).strategy);
   EXPECT_EQ(truths[0].group, "novice");
@@ -57,6 +58,7 @@ TEST_F(SimulatedPeopleTest, AreNobodyWhoLogsInAndNothingOfTheirsIsAPersons) {
   const std::string simulated = simulated_person(library_, novice(1), 7);
   const std::string real = add_user(library_, "tina", Role::trainee, "a password").value();
   EXPECT_EQ(kind_of(real), "real");
+  EXPECT_EQ(simulated_people(library_), std::set<std::string>{simulated});
   EXPECT_EQ(list_users(library_).size(), 1U);
   const std::string case_id = add_case(library_, sample_case());
   NewAttempt made = sample_attempt(case_id, add_lesion(library_, case_id, sample_lesion()).value());

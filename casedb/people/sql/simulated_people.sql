@@ -1,0 +1,2 @@
+-- Everybody who is simulated.
+SELECT person_id FROM person WHERE kind = 'simulated'
