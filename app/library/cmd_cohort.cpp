@@ -61,8 +61,9 @@ int run_cohort_show(const Arguments& arguments) {
               cohort->site.c_str());
   for (const casedb::Enrolment& one : enrolments) {
     const auto name = names.find(one.person_id);
-    std::printf("  %-8s %s%s\n", casedb::name_of(one.post).c_str(),
-                name == names.end() ? one.pseudonym.c_str() : name->second.c_str(), one.to_us ? " (left)" : "");
+    std::printf("  %-8s %s%s%s\n", casedb::name_of(one.post).c_str(),
+                name == names.end() ? one.pseudonym.c_str() : name->second.c_str(),
+                one.simulated ? ", simulated" : "", one.to_us ? " (left)" : "");
   }
   return kDone;
 }

@@ -43,6 +43,7 @@ std::string json_of_cohort(const casedb::Cohort& cohort, const std::vector<cased
     list.push_back({{"person_id", one.person_id},
                     {"name", name == names.end() ? Json(nullptr) : Json(name->second)},
                     {"pseudonym", one.pseudonym},
+                    {"synthetic", one.simulated},
                     {"post", casedb::name_of(one.post)},
                     {"from_us", one.from_us},
                     {"to_us", time_or_null(one.to_us)}});

@@ -108,7 +108,8 @@ std::vector<Enrolment> list_enrolments(Library& library, const std::string& coho
     const auto post = post_from(rows.text("post"));
     CHECK(post.has_value());
     enrolments.push_back({rows.text("person_id"), rows.text("pseudonym"), *post, rows.integer("from_us"),
-                          rows.is_null("to_us") ? std::nullopt : std::optional(rows.integer("to_us"))});
+                          rows.is_null("to_us") ? std::nullopt : std::optional(rows.integer("to_us")),
+                          rows.integer("simulated") != 0});
   }
   return enrolments;
 }

@@ -47,6 +47,7 @@ struct Enrolment {
   Post post = Post::learner;
   std::int64_t from_us = 0;
   std::optional<std::int64_t> to_us;
+  bool simulated = false;  // who is nobody
 };
 
 // One line of 1 to 200 bytes of UTF-8: else `bad_title`.

@@ -199,7 +199,7 @@ class OtherFormats {
       if (!mesh) return mesh.error();
       skin = skins_.emplace(row.case_id, cases::MeshIndex(*mesh)).first;
     }
-    write(slicer_files(facts.names.attempt, *recording, row.lesion.center_lps_mm, skin->second));
+    write(slicer_files(facts.names.attempt, row.synthetic(), *recording, row.lesion.center_lps_mm, skin->second));
     return {};
   }
   // When all tables are written.

@@ -18,8 +18,10 @@ Json point_json(const std::string& id, const std::string& label, const glm::dvec
           {"locked", true}, {"visibility", true}, {"positionStatus", "defined"}};
 }
 
-std::string markup_text(const char* type, const Json& points) {
+std::string markup_text(const char* type, const std::string& name, bool synthetic, const Json& points) {
   const Json markup = {{"type", type},
+                       {"name", synthetic ? name + ", simulated" : name},
+                       {"synthetic", synthetic},
                        {"coordinateSystem", "LPS"},
                        {"coordinateUnits", "mm"},
                        {"locked", true},
@@ -64,12 +66,13 @@ std::string shortest(double value) {
 }
 
 // Turned about its own axis in some way: that is not recorded.
-std::string transform_text(const glm::dvec3& tip, const glm::dvec3& direction) {
+std::string transform_text(const glm::dvec3& tip, const glm::dvec3& direction, bool synthetic) {
   const glm::dvec3 z = glm::normalize(direction);
   const glm::dvec3 across = std::abs(z.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
   const glm::dvec3 y = glm::normalize(glm::cross(z, across)), x = glm::cross(y, z);
-  std::string text =
-      "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\nParameters:";
+  std::string text = "#Insight Transform File V1.0\n#Transform 0\n";
+  if (synthetic) text += "# SIMULATED: a simulated operator moved the hands\n";
+  text += "Transform: AffineTransform_double_3_3\nParameters:";
   for (const glm::dvec3& row : {x, y, z})
     for (int i = 0; i < 3; ++i) text += " " + shortest(row[i]);
   for (const glm::dvec3& row : {x, y, z}) text += " " + shortest(-glm::dot(row, tip));
@@ -78,7 +81,7 @@ std::string transform_text(const glm::dvec3& tip, const glm::dvec3& direction) {
 
 }  // namespace
 
-std::vector<FormatFile> slicer_files(const std::string& attempt, const cases::Recording& recording,
+std::vector<FormatFile> slicer_files(const std::string& attempt, bool synthetic, const cases::Recording& recording,
                                      const glm::dvec3& target_lps_mm, const cases::MeshIndex& skin) {
   if (recording.poses.empty()) return {};
   const cases::PoseSample& last = recording.poses.back();
@@ -89,9 +92,10 @@ std::vector<FormatFile> slicer_files(const std::string& attempt, const cases::Re
     points.push_back(point_json(std::to_string(points.size() + 1), "entry", entry));
   points.push_back(point_json(std::to_string(points.size() + 1), endpoint ? "endpoint" : "last tip", tip));
   const std::string name = "slicer/" + attempt;
-  return {{name + "_points.mrk.json", markup_text("Fiducial", points)},
-          {name + "_path.mrk.json", markup_text("Curve", way_json(recording))},
-          {name + "_needle.tfm", transform_text(tip, endpoint ? endpoint->direction : last.needle_direction)}};
+  return {{name + "_points.mrk.json", markup_text("Fiducial", attempt + " points", synthetic, points)},
+          {name + "_path.mrk.json", markup_text("Curve", attempt + " path", synthetic, way_json(recording))},
+          {name + "_needle.tfm",
+           transform_text(tip, endpoint ? endpoint->direction : last.needle_direction, synthetic)}};
 }
 
 }  // namespace seldinger::reports

@@ -89,6 +89,7 @@ TEST_F(SimulatedPeopleTest, LearnInACohortByAPseudonymThatSaysSo) {
   const auto enrolments = list_enrolments(library_, cohort);
   ASSERT_EQ(enrolments.size(), 1U);
   EXPECT_EQ(enrolments[0].pseudonym.substr(0, 2), "S-");
+  EXPECT_TRUE(enrolments[0].simulated);
 }
 
 // What was planted is asked for by itself: no question names its table and another one.

@@ -44,7 +44,7 @@ glm::dvec3 position_of(const Json& point) {
 
 TEST(SlicerFiles, HoldTargetEntryEndpointAndWayInLps) {
   const glm::dvec3 target{31.0, 2.0, -6.0};
-  const auto files = slicer_files("A-1", straight_in(), target, skin());
+  const auto files = slicer_files("A-1", false, straight_in(), target, skin());
   ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(files[0].name, "slicer/A-1_points.mrk.json");
   const Json points = Json::parse(files[0].content).at("markups").at(0);
@@ -64,12 +64,12 @@ TEST(SlicerFiles, HoldTargetEntryEndpointAndWayInLps) {
     length += glm::distance(position_of(way.at("controlPoints")[i]), position_of(way.at("controlPoints")[i - 1]));
   EXPECT_NEAR(length, 40.0, 1e-9);
   EXPECT_LT(way.at("controlPoints").size(), 90U) << "points lie half a millimetre apart";
-  EXPECT_TRUE(slicer_files("A-1", cases::Recording{}, target, skin()).empty());
+  EXPECT_TRUE(slicer_files("A-1", false, cases::Recording{}, target, skin()).empty());
 }
 
 // What Slicer reads from such a file takes the patient's points to the needle's: the tip to 0, a place ahead to +z.
 TEST(SlicerFiles, TheTransformTakesThePatientToTheNeedle) {
-  const std::string text = slicer_files("A-1", straight_in(), {}, skin())[2].content;
+  const std::string text = slicer_files("A-1", false, straight_in(), {}, skin())[2].content;
   ASSERT_EQ(text.rfind("#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\n", 0),
             0U);
   std::istringstream numbers(text.substr(text.find("Parameters: ") + 12));
@@ -86,6 +86,20 @@ TEST(SlicerFiles, TheTransformTakesThePatientToTheNeedle) {
   EXPECT_LT(glm::distance(needle_from_patient(tip + 5.0 * kDirection), {0.0, 0.0, 5.0}), 1e-12);
   const glm::dvec3 x{m[0], m[1], m[2]}, y{m[3], m[4], m[5]}, z{m[6], m[7], m[8]};
   EXPECT_LT(glm::distance(glm::cross(x, y), z), 1e-12) << "a rotation, not a mirror";
+}
+
+// What was simulated cannot be taken for somebody's, whichever file is looked at.
+TEST(SlicerFiles, SayWhatIsSimulated) {
+  for (const bool synthetic : {false, true}) {
+    const auto files = slicer_files("A-1", synthetic, straight_in(), {}, skin());
+    const std::string end = synthetic ? ", simulated" : "";
+    const Json points = Json::parse(files[0].content).at("markups").at(0);
+    const Json way = Json::parse(files[1].content).at("markups").at(0);
+    EXPECT_EQ(points.at("name"), "A-1 points" + end);
+    EXPECT_EQ(way.at("name"), "A-1 path" + end);
+    for (const Json* one : {&points, &way}) EXPECT_EQ(one->at("synthetic"), synthetic);
+    EXPECT_EQ(files[2].content.find("\n# SIMULATED: ") != std::string::npos, synthetic);
+  }
 }
 
 TEST(XapiStatements, SayWhatTheGradeSays) {
