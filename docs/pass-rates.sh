@@ -1,3 +1,13 @@
+#!/bin/sh
+# How many simulated people pass each case of the demo at their first attempt, as a table in Markdown:
+#
+#   docs/pass-rates.sh LIBRARY
+#
+# LIBRARY is made where there is none yet (`seldinger demo --cases`). Attempts are kept in it, so that a run that was cut
+# off goes on with the same words.
+#
+# SELDINGER names the program where it is not on the PATH; PEOPLE (12) how many of a group attempt each case, SEED (3)
+# which ones.
 set -eu
 library=$1
 program=${SELDINGER:-seldinger} people=${PEOPLE:-12} seed=${SEED:-3}
