@@ -47,6 +47,16 @@ std::string no_such_command(const std::vector<std::string>& words, std::span<con
   return "there is no command " + shown(words[0]) + (meant.empty() ? did_you_mean(words[0], names) : meant);
 }
 
+// A word after a command that takes none: "simulate study" is meant for "study simulate".
+std::string one_too_many(const std::string& word, const Command& command, std::span<const Command> commands) {
+  const std::string turned = word + " " + command.name;
+  for (const Command& one : commands)
+    if (turned == one.name)
+      return "there is no command " + shown(std::string(command.name) + " " + word) + "; did you mean " + turned +
+             "?";
+  return shown(word) + " is one word too many";
+}
+
 int misused(const std::string& text, const std::string& where_to_look) {
   std::fprintf(stderr, "usage: %s\n%s\n", text.c_str(), where_to_look.c_str());
   answer_as_json(base::Error{"usage", text});
@@ -69,6 +79,9 @@ int run(std::vector<std::string> words, std::span<const Command> commands) {
                                                           : "`seldinger help` lists the commands");
   }
   words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(used));
+  const std::string where_to_look = std::string("`seldinger help ") + command->name + "` tells what it takes";
+  if (command->max_positionals == 0 && !words.empty() && !words[0].starts_with("-"))
+    return misused(one_too_many(words[0], *command, commands), where_to_look);
   const auto end_of_options = std::find(words.begin(), words.end(), kEndOfOptions);
   if (std::find(words.begin(), end_of_options, "--help") != end_of_options) {
     std::fputs(help_text(*command).c_str(), stdout);
@@ -77,7 +90,7 @@ int run(std::vector<std::string> words, std::span<const Command> commands) {
   try {
     return command->run(Arguments(*command, words));
   } catch (const UsageError& error) {
-    return misused(error.what(), std::string("`seldinger help ") + command->name + "` tells what it takes");
+    return misused(error.what(), where_to_look);
   } catch (const base::Failure& failure) {
     return fail(kEnvironment, {failure.code(), failure.what()});
   } catch (const std::bad_alloc&) {
