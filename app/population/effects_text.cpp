@@ -79,7 +79,8 @@ std::optional<bool> is_within(const SimulatedEffects& effects, const ReferenceEf
   const auto value = predicted(effects, row);
   if (!value) return std::nullopt;
   const auto interval = population::interval95(row);
-  return std::abs(*value - row.value) <= kMayBeOff || (interval.low <= *value && *value <= interval.high);
+  return std::abs(*value - row.value) <= kMayBeOff ||
+         (interval && interval->low <= *value && *value <= interval->high);
 }
 
 const char* kind_text(EffectKind kind) {
@@ -204,21 +205,22 @@ std::string text_of_effects(const SimulatedEffects& effects) {
     text += line;
   }
   text +=
-      "\n| published | of | what | value | 95 % | people | simulated | within .15 or the interval | "
-      "|\n|---|---|---|---|---|---|---|---|---|\n";
+      "\n| published | of | what | value | standard error | 95 % | people | simulated | within .15 or the interval "
+      "| "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const ReferenceEffect& row : population::reference_effects()) {
-    const auto interval = population::interval95(row);
-    char bounds[48] = "", people[32] = "", simulated[32] = "not simulated";
-    if (row.kind == EffectKind::difference || row.kind == EffectKind::discriminating)
-      std::snprintf(bounds, sizeof bounds, "%.2f to %.2f", interval.low, interval.high);
+    char error[32] = "not reported", bounds[48] = "", people[32] = "not reported", simulated[32] = "not simulated";
+    if (const auto known = population::standard_error(row)) std::snprintf(error, sizeof error, "%.2f", *known);
+    if (const auto interval = population::interval95(row))
+      std::snprintf(bounds, sizeof bounds, "%.2f to %.2f", interval->low, interval->high);
     if (row.n2 > 0)
       std::snprintf(people, sizeof people, "%zu and %zu", row.n1, row.n2);
     else if (row.n1 > 0)
       std::snprintf(people, sizeof people, "%zu", row.n1);
     if (const auto value = predicted(effects, row)) std::snprintf(simulated, sizeof simulated, "%.2f", *value);
     const auto within = is_within(effects, row);
-    std::snprintf(line, sizeof line, "| %s | %s | %s | %.2f | %s | %s | %s | %s | %s%s |\n", row.source.data(),
-                  row.what.data(), kind_text(row.kind), row.value, bounds, people, simulated,
+    std::snprintf(line, sizeof line, "| %s | %s | %s | %.2f | %s | %s | %s | %s | %s | %s%s |\n", row.source.data(),
+                  row.what.data(), kind_text(row.kind), row.value, error, bounds, people, simulated,
                   !within   ? ""
                   : *within ? "yes"
                             : "**no**",

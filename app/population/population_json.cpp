@@ -100,6 +100,11 @@ std::string json_of_effects(const SimulatedEffects& effects) {
                        {"experts", number_or_null(one.experts)}});
   for (const population::ReferenceEffect& row : population::reference_effects()) {
     const auto interval = population::interval95(row);
+    Json people = nullptr;  // not reported
+    if (row.n2 > 0)
+      people = {row.n1, row.n2};
+    else if (row.n1 > 0)
+      people = {row.n1};
     const std::optional<double> unselected =
         row.selected ? std::optional(population::unselected(row.value, row.n1, row.n2)) : std::nullopt;
     const auto within = is_within(effects, row);
@@ -107,7 +112,9 @@ std::string json_of_effects(const SimulatedEffects& effects) {
                          {"what", row.what},
                          {"kind", kind_text(row.kind)},
                          {"value", row.value},
-                         {"ci95", {interval.low, interval.high}},
+                         {"standard_error", number_or_null(population::standard_error(row))},
+                         {"ci95", interval ? Json{interval->low, interval->high} : Json(nullptr)},
+                         {"people", people},
                          {"selected", row.selected},
                          {"unselected", number_or_null(unselected)},
                          {"fitted", row.fitted},

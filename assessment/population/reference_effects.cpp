@@ -18,6 +18,7 @@ constexpr std::string_view kMidterm = "Vidal, thesis, Bangor University 2008, ta
 constexpr std::string_view kFinal = "Vidal, thesis, Bangor University 2008, table 6.3";
 constexpr std::string_view kXia = "Xia et al., Proc. SPIE 2018, 10.1117/12.2293789";
 constexpr std::string_view kFromT = "d = t √(1/n₁ + 1/n₂)";
+constexpr std::string_view kBeforeAfter = "of the two figures given, of the same people";
 constexpr std::string_view kFromMeans = "difference of means by the pooled standard deviation";
 
 // d of two means and standard deviations.
@@ -64,12 +65,24 @@ constexpr ReferenceEffect as_metric(std::string_view metric, ReferenceEffect row
   row.metric = metric;
   return row;
 }
+// Sources give no standard error of these. `n`: people, who are the same before and after, or of both groups.
 constexpr ReferenceEffect ratio(std::string_view source, std::string_view what, double after, double before,
-                                std::size_t n) {
-  return {source, what, EffectKind::ratio, after / before, n, n, 0, false, false, "of the two figures given"};
+                                std::size_t n, std::string_view how) {
+  return {source, what, EffectKind::ratio, after / before, n, 0, 0, false, false, how};
 }
-constexpr ReferenceEffect level(std::string_view source, std::string_view what, double value, std::size_t n) {
-  return {source, what, EffectKind::level, value, n, 0, 0, false, false, "given"};
+constexpr ReferenceEffect level(std::string_view source, std::string_view what, double value) {
+  return {source, what, EffectKind::level, value, 0, 0, 0, false, false, "given"};
+}
+// So many events in so many procedures of n people, were each independent of all others.
+constexpr ReferenceEffect rate(std::string_view source, std::string_view what, double events, double procedures,
+                               std::size_t n) {
+  ReferenceEffect row = level(source, what, events / procedures);
+  row.n1 = n;
+  double root = events;  // Newton's, for a constant
+  for (int i = 0; i < 40; ++i) root = 0.5 * (root + events / root);
+  row.error = root / procedures;
+  row.how = "counted; standard error by Poisson's law, as if errors were independent";
+  return row;
 }
 
 // √(1/14 + 1/26), Johnson's consultants and trainees.
@@ -86,15 +99,17 @@ constexpr ReferenceEffect kEffects[] = {
     {"PMC5318157", "first pass with needle guidance, 76.4 and 88.9 %", EffectKind::difference, 0.499, 35, 35, 0,
      false, false, "logarithm of the odds ratio by √3/π; the same people"},
     as_metric("swept_area", ratio("Keri et al. 2015, randomised trial with Perk Tutor",
-                                  "potential tissue damage with training, 39.7 to 128.3 cm²", 39.7, 128.3, 24)),
+                                  "potential tissue damage with training, 39.7 to 128.3 cm²", 39.7, 128.3, 24,
+                                  "of the medians of two groups")),
     as_metric("path_inefficiency",
-              ratio(kXia, "path inefficiency after practice, 127.1 to 45.8 %", 45.8, 127.1, 19)),
-    as_metric("path_tip", ratio(kXia, "needle's path after practice, 58.0 to 41.1 mm", 41.1, 58.0, 19)),
-    ratio(kXia, "probe's path after practice, 43.8 to 11.6 mm", 11.6, 43.8, 19),
-    as_metric("first_pass_success", level("BMC Med. Educ. 2024, PMC11583760", "first pass", 0.809, 0)),
-    level("BMC Med. Educ. 2024, PMC11583760", "complications", 0.191, 0),
-    level("Sites et al., Reg. Anesth. Pain Med. 32, 2007, 107", "errors in a nerve block, 398 in 520",
-          398.0 / 520.0, 0),
+              ratio(kXia, "path inefficiency after practice, 127.1 to 45.8 %", 45.8, 127.1, 19, kBeforeAfter)),
+    as_metric("path_tip",
+              ratio(kXia, "needle's path after practice, 58.0 to 41.1 mm", 41.1, 58.0, 19, kBeforeAfter)),
+    ratio(kXia, "probe's path after practice, 43.8 to 11.6 mm", 11.6, 43.8, 19, kBeforeAfter),
+    as_metric("first_pass_success", level("BMC Med. Educ. 2024, PMC11583760", "first pass", 0.809)),
+    level("BMC Med. Educ. 2024, PMC11583760", "complications", 0.191),
+    rate("Sites et al., Reg. Anesth. Pain Med. 32, 2007, 107", "errors in a nerve block, 398 in 520", 398.0, 520.0,
+         6),
     answer(kMidterm, "likeness to the procedure in patients", -1, 2.26, 1.05, 3.00, 1.73, 19, 3),
     answer(kMidterm, "touch was accurate", 1, 2.58, 0.69, 2.67, 1.53, 19, 3),
     answer(kMidterm, "insertion through skin is realistic", 2, 2.63, 0.96, 3.00, 1.73, 19, 3),
@@ -136,19 +151,31 @@ double share_error(double share, std::size_t of) {
   return std::sqrt(share * (1.0 - share) / static_cast<double>(of));
 }
 
-statistics::Interval interval95(const ReferenceEffect& effect) {
-  const double z = normal_quantile_of(0.975);
-  if (effect.kind == EffectKind::difference) {
-    const double error = difference_error(effect.value, effect.n1, effect.n2);
-    return {effect.value - z * error, effect.value + z * error};
+std::optional<double> standard_error(const ReferenceEffect& effect) {
+  switch (effect.kind) {
+    case EffectKind::difference:
+      return difference_error(effect.value, effect.n1, effect.n2);
+    case EffectKind::discriminating:
+      return share_error(effect.value, effect.of);
+    case EffectKind::ratio:
+    case EffectKind::level:
+      break;
   }
-  if (effect.kind != EffectKind::discriminating) return {effect.value, effect.value};
+  return effect.error > 0.0 ? std::optional(effect.error) : std::nullopt;
+}
+
+std::optional<statistics::Interval> interval95(const ReferenceEffect& effect) {
+  const auto error = standard_error(effect);
+  if (!error) return std::nullopt;
+  const double z = normal_quantile_of(0.975);
+  if (effect.kind != EffectKind::discriminating)
+    return statistics::Interval{effect.value - z * *error, effect.value + z * *error};
   // Wilson's
   const auto n = static_cast<double>(effect.of);
   const double p = effect.value, denominator = 1.0 + z * z / n;
   const double middle = (p + z * z / (2.0 * n)) / denominator;
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / denominator;
-  return {middle - half, middle + half};
+  return statistics::Interval{middle - half, middle + half};
 }
 
 double unselected(double d, std::size_t n1, std::size_t n2) {

@@ -24,9 +24,10 @@ struct ReferenceEffect {
   std::string_view source;  // as it is cited
   std::string_view what;
   EffectKind kind = EffectKind::difference;
-  double value = 0.0;          // of `discriminating` the share
-  std::size_t n1 = 0, n2 = 0;  // people of less and of more experience; of `discriminating` its metrics in `of`
-  std::size_t of = 0;
+  double value = 0.0;  // of `discriminating` the share
+  // People of less and of more experience; n2 0: n1 people in all; both 0: not reported in what was read.
+  std::size_t n1 = 0, n2 = 0;
+  std::size_t of = 0;            // of `discriminating`: of how many metrics
   bool selected = false;         // reported because it was significant
   bool fitted = false;           // the population was set by it; the others are predicted
   std::string_view how;          // the value was had from the publication's figures
@@ -34,6 +35,7 @@ struct ReferenceEffect {
   bool of_answers = false;       // to a questionnaire
   bool of_two = false;           // of a person's first two performances, here their mean
   std::string_view metric = {};  // of a ratio or a level: ours of the same thing; empty: there is none
+  double error = 0.0;            // of a ratio or a level: its standard error; 0: not reported, nor to be had
 };
 std::span<const ReferenceEffect> reference_effects();
 
@@ -41,7 +43,9 @@ std::span<const ReferenceEffect> reference_effects();
 double difference_of_t(double t, std::size_t n1, std::size_t n2);
 double difference_error(double d, std::size_t n1, std::size_t n2);
 double share_error(double share, std::size_t of);
-statistics::Interval interval95(const ReferenceEffect& effect);  // of difference and discriminating; else the value
+// Of a difference and a share by their sizes; of the others as the row has it.
+std::optional<double> standard_error(const ReferenceEffect& effect);
+std::optional<statistics::Interval> interval95(const ReferenceEffect& effect);  // of those with a standard error
 
 // The likeliest true difference of one that was reported since it was significant at 5 %, two-sided: the maximum of
 // the likelihood given that it was (Hedges 1984).

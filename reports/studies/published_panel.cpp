@@ -74,7 +74,7 @@ Html published_panel(const ValidityReport& report) {
   for (const population::ReferenceEffect& one : population::reference_effects()) {
     if (one.kind != population::EffectKind::difference || one.of_answers) continue;
     const std::string people = two_groups_text(one.n1, one.n2);
-    const Interval interval = population::interval95(one);
+    const Interval interval = population::interval95(one).value();  // every difference has one
     chart.rows.push_back({std::string(one.what), one.value, interval, people});
     add_size_row(rows, one.what, one.source, sizes_text(one.value, interval), people,
                  one.selected ? number_text(population::unselected(one.value, one.n1, one.n2), 2) : "");

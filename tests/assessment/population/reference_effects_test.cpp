@@ -14,7 +14,7 @@ namespace {
 
 TEST(ReferenceEffects, AreEnoughOfEnoughSourcesWithTheirSizes) {
   std::set<std::string_view> sources;
-  std::size_t fitted = 0;
+  std::size_t fitted = 0, without_error = 0;
   for (const ReferenceEffect& row : reference_effects()) {
     sources.insert(row.source.substr(0, row.source.find(",")));
     fitted += row.fitted ? 1U : 0U;
@@ -23,11 +23,21 @@ TEST(ReferenceEffects, AreEnoughOfEnoughSourcesWithTheirSizes) {
     if (row.kind == EffectKind::difference || row.kind == EffectKind::discriminating) {
       EXPECT_GT(row.n1, 1U);
       EXPECT_GT(row.n2, 1U);
-      EXPECT_LT(interval95(row).low, row.value);
-      EXPECT_GT(interval95(row).high, row.value);
     }
+    // With an interval about the value, or said to have none.
+    const auto interval = interval95(row);
+    ASSERT_EQ(interval.has_value(), standard_error(row).has_value()) << row.what;
+    if (!interval) {
+      ++without_error;
+      EXPECT_NE(row.kind, EffectKind::difference) << row.what;
+      EXPECT_NE(row.kind, EffectKind::discriminating) << row.what;
+      continue;
+    }
+    EXPECT_GT(*standard_error(row), 0.0) << row.what;
+    EXPECT_LT(interval->low, row.value) << row.what;
+    EXPECT_GT(interval->high, row.value) << row.what;
   }
-  EXPECT_GE(reference_effects().size(), 20U);
+  EXPECT_GE(reference_effects().size() - without_error, 20U);
   EXPECT_GE(sources.size(), 8U);
   EXPECT_LT(fitted, reference_effects().size() / 2);
 }
@@ -48,6 +58,13 @@ TEST(ReferenceEffects, AreWhatTheirSourcesGive) {
   // 52 and 64 % with p = .19 of 14 and 7 people.
   EXPECT_NEAR(value_of("score of a prostate biopsy, 52 and 64 %", "17159683"),
               difference_of_t(statistics::student_t_quantile(1.0 - 0.19 / 2.0, 19), 14, 7), 1e-3);
+  // 398 errors in 520 blocks: √398/520.
+  for (const ReferenceEffect& row : rows)
+    if (row.what == "errors in a nerve block, 398 in 520") {
+      EXPECT_NEAR(standard_error(row).value_or(0.0), std::sqrt(398.0) / 520.0, 1e-12);
+    }
+  // Of 48 in 153 metrics.
+  EXPECT_NEAR(standard_error(rows[4]).value_or(0.0), std::sqrt(48.0 / 153.0 * 105.0 / 153.0 / 153.0), 1e-12);
   const double odds = std::log(0.889 / 0.111) - std::log(0.764 / 0.236);
   EXPECT_NEAR(value_of("first pass with needle guidance, 76.4 and 88.9 %", "PMC5318157"),
               odds * std::sqrt(3.0) / 3.14159265358979, 1e-3);
