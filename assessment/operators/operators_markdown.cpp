@@ -19,9 +19,10 @@ seldinger simulate --library DIR --case ID --operator learner --people 5 --count
 seldinger simulate --library DIR --case ID --operator FILE.json                           one of your own
 ```
 
-An operator is one clone, however many seeds it has. `--people` of novice, intermediate, expert or a group's file makes
-[simulated people](simulated-people.md) instead, who overlap as people do; of learner and a file of skills it makes people
-about that operator, each with streams of their own.
+An operator is one clone, however many seeds it has. An attempt keeps the seed that was asked for; what the hands draw from
+is a hash of the seed and the operator's name, so attempts of two operators with the same seed are independent. `--people`
+of novice, intermediate, expert or a group's file makes [simulated people](simulated-people.md) instead, who overlap as
+people do; of learner and a file of skills it makes people about that operator, each with streams of their own.
 
 Filled: how people of different experience differed in published studies, with 95 % intervals; crosses: what simulated people
 would have shown there; hollow: each metric of theirs at Drill 2, experts and novices
@@ -72,8 +73,7 @@ little, then on by 2 mm); check the aim before the organ's capsule and correct w
 ahead and let the tip follow; ask for a held breath; fire when the tip is seen; take the needle out and sign out. Of a patient
 who breathes, skin is numbed as it lies between two breaths, a held breath is asked for before the needle goes in, waited for
 (what breath moves meets a needle that waits inside), asked for again when it is lost; tissue that gave way is aimed at where
-the picture shows the target. Who has less of a skill leaves out more of that. In a still case nobody does anything of it, and
-attempts of the same seed are those of before.
+the picture shows the target. Who has less of a skill leaves out more of that. In a still case nobody does any of this.
 
 ## A file of one's own
 

@@ -2,11 +2,15 @@
 
 #include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
+#include "assessment/population/streams.h"
 #include "session/guidance/guidance.h"
 #include "sim/engine/step.h"
 #include "sim/engine/tick.h"
 
 namespace seldinger::session {
+
+namespace population = assessment::population;
+
 namespace {
 
 // One attempt in virtual time, and its recording.
@@ -56,19 +60,25 @@ cases::Recording run(Attempt& attempt, Guidance& guidance, Person& person, doubl
 
 }  // namespace
 
+// As a person's attempts, of a number that no person has.
+std::uint64_t stream_of_operator(const std::string& name, std::uint64_t seed) noexcept {
+  return population::stream_of(population::person_key(seed, name, 0), population::Drawn::attempt);
+}
+
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
-                             const assessment::OperatorProfile& profile, std::uint64_t seed,
+                             const assessment::OperatorProfile& profile, std::uint64_t stream,
                              std::span<const cases::Event> scenario, double limit_s) {
   const std::unique_ptr<Guidance> guidance = guidance_of(scene);
   const GuidanceState& seen = guidance->state();
   Attempt attempt(scene, scenario);
   if (guidance_kind(scene.picture.modality).probe_guides) {
-    assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
+    assessment::ScriptedOperator person(profile, plan, scene.instrument, stream);
     return run(attempt, *guidance, person, limit_s, [&](const cases::State& state) {
       return person.act(state, seen.fresh ? &seen.truth : nullptr, base::kTickS, seen.moved_mm);
     });
   }
-  assessment::FluoroscopyOperator person(profile, plan, scene.instrument, scene.fluoroscope, scene.position, seed);
+  assessment::FluoroscopyOperator person(profile, plan, scene.instrument, scene.fluoroscope, scene.position,
+                                         stream);
   return run(attempt, *guidance, person, limit_s, [&](const cases::State& state) {
     return person.act(state, seen.fresh ? &seen.fix : nullptr, base::kTickS);
   });

@@ -18,6 +18,17 @@ namespace seldinger::session {
 
 namespace population = assessment::population;
 
+namespace {
+
+// Of an operator who is nobody, whoever it is stored for.
+SimulatedTrial trial_of(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                        const std::optional<std::string>& person_id = std::nullopt) {
+  return {
+      .profile = profile, .seed = seed, .stream = stream_of_operator(profile.name, seed), .person_id = person_id};
+}
+
+}  // namespace
+
 base::Result<Simulation> Simulation::prepare(casedb::Library& library, Program program, const std::string& case_id,
                                              const std::string& lesion_id,
                                              std::optional<cases::InstrumentKind> kind,
@@ -44,7 +55,8 @@ base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::Operat
   // Whoever looks for needle and target in pulses is not made for real time.
   if (!guidance_kind(task_.scene.picture.modality).probe_guides)
     return base::Error{"not_in_real_time", "a fluoroscope's attempts run in virtual time only"};
-  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
+  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument,
+                                      stream_of_operator(profile.name, seed));
   return run_live(
       LiveAttempt(*library_, program_, head_of(task_, program_, profile.name, seed, std::nullopt), task_.scene),
       person, 0, seed, opened);
@@ -58,7 +70,8 @@ base::Result<SimulatedAttempt> Simulation::resume(InterruptedAttempt interrupted
   CHECK(interrupted.attempt().synthetic());
   if (!was_made_at(interrupted.attempt(), task_))
     return base::Error{"other_case", "the attempt was made on a different task"};
-  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
+  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument,
+                                      stream_of_operator(profile.name, seed));
   std::uint32_t happened = 0;
   auto frame = interrupted.recording().frames.begin();
   const auto frames_end = interrupted.recording().frames.end();
@@ -107,7 +120,8 @@ base::Result<casedb::NewAttempt> Simulation::make(const SimulatedTrial& trial, b
       at_limit = casedb::AttemptEnd::device_lost;
     }
   }
-  attempt.recording = run_attempt(task_.scene, task_.plan, trial.profile, trial.seed, scenario_, limit_s);
+  attempt.recording =
+      run_attempt(task_.scene, task_.plan, trial.profile, trial.stream.value_or(trial.seed), scenario_, limit_s);
   attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
   attempt.end = attempt.recording.endpoint     ? casedb::AttemptEnd::fired
                 : attempt.duration_s < limit_s ? casedb::AttemptEnd::stopped
@@ -122,7 +136,7 @@ base::Result<casedb::NewAttempt> Simulation::make(const SimulatedTrial& trial, b
 
 base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                                    const std::optional<std::string>& person_id) {
-  const auto made = make({.profile = profile, .seed = seed, .person_id = person_id}, true);
+  const auto made = make(trial_of(profile, seed, person_id), true);
   if (!made) return made.error();
   const auto attempt_id = casedb::add_attempt(*library_, *made);
   if (!attempt_id) return attempt_id.error();
@@ -137,8 +151,7 @@ base::Result<SimulatedAttempt> Simulation::median_attempt(const assessment::Oper
   std::vector<casedb::NewAttempt> all;
   std::optional<base::Error> refused;
   in_order<Made>(
-      seeds.size(), jobs,
-      [&](std::size_t i) { return make({.profile = profile, .seed = seeds[i], .person_id = person_id}, false); },
+      seeds.size(), jobs, [&](std::size_t i) { return make(trial_of(profile, seeds[i], person_id), false); },
       [&](std::size_t, Made made) {
         if (made)
           all.push_back(std::move(*made));
@@ -218,8 +231,10 @@ std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& 
                                              std::size_t count, std::optional<std::size_t> people) {
   std::vector<SimulatedTrial> trials;
   if (!people) {
-    for (std::size_t i = 0; i < count; ++i)
-      trials.push_back({.profile = assessment::at_attempt(profile, i), .seed = seed + i, .number = i});
+    for (std::size_t i = 0; i < count; ++i) {
+      trials.push_back(trial_of(assessment::at_attempt(profile, i), seed + i));
+      trials.back().number = i;
+    }
     return trials;
   }
   for (std::size_t p = 1; p <= *people; ++p) {

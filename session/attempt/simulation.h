@@ -24,7 +24,8 @@ namespace seldinger::session {
 // One of the attempts to be made: by whom, as he is then.
 struct SimulatedTrial {
   assessment::OperatorProfile profile{};
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 0;                 // as the attempt keeps it
+  std::optional<std::uint64_t> stream{};  // that hands and eyes draw from; none: the seed, which is a stream itself
   std::optional<std::uint64_t> person{};  // number among people drawn about a profile, from 1
   std::uint64_t number = 0;               // of the attempt, from 0
   // Of a simulated person (simulated_people.h): who, when, and what keeps the attempt from being whole.
@@ -34,8 +35,9 @@ struct SimulatedTrial {
   std::optional<std::string> station{};  // where that is to count
 };
 
-// `count` attempts of the profile itself, attempt i with seed + i; or of each of `people`, drawn about the profile
-// by seed, profile and number, so that the same seed is the same people at every case, and no two share a stream.
+// `count` attempts of the profile itself, attempt i with seed + i and the operator's stream of it
+// (stream_of_operator); or of each of `people`, drawn about the profile by seed, profile and number, so that the
+// same seed is the same people at every case, and no two share a stream.
 std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                              std::size_t count, std::optional<std::size_t> people);
 

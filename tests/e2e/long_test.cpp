@@ -162,10 +162,12 @@ TEST(Long, ExpertsPassTheDrillsAndNovicesRarelyDo) {
       int passed = 0;
       const Json answer = Json::parse(tried.out);
       for (const Json& attempt : answer.at("attempts")) passed += passes(attempt, criteria) ? 1 : 0;
+      // Of 240 novices' attempts at the first drill, where most do, 24 passed: 40 such have 4 in the mean and
+      // hardly ever, three standard deviations further, more than 10.
       if (expert)
         EXPECT_GE(passed, 36) << one.at("title");
       else
-        EXPECT_LE(passed, 6) << one.at("title");
+        EXPECT_LE(passed, 10) << one.at("title");
     }
   }
 }

@@ -88,7 +88,8 @@ class ResumeTest : public testing::Test {
     return *id;
   }
   cases::Recording recording_of(const Task& task, std::size_t ticks) const {
-    cases::Recording whole = run_attempt(task.scene, task.plan, *assessment::named_profile("novice"), 3);
+    cases::Recording whole =
+        run_attempt(task.scene, task.plan, *assessment::named_profile("novice"), stream_of_operator("novice", 3));
     EXPECT_GT(whole.inputs.size(), ticks);
     const double end_s = static_cast<double>(ticks) * whole.dt_s;
     whole.inputs.resize(ticks);
