@@ -75,6 +75,22 @@ TEST_P(UltrasoundOnGpu, IsTheCpuBehindLung) {
   EXPECT_GT(with_artefacts, 0) << "nothing was mirrored, nothing in an edge's shadow";
 }
 
+TEST_P(UltrasoundOnGpu, IsTheCpuBehindGasAndNearLung) {
+  for (const TissueClass air : {TissueClass::gas, TissueClass::lung}) {
+    const Scene s =
+        scene([&](const glm::dvec3& p) { return p.y > 22.0 + 0.1 * p.x && p.x < 4.0 ? air : TissueClass::liver; },
+              {110, 130, 40}, 1.5);
+    UltrasoundGpu gpu = gpu_of(s);
+    for (UltrasoundView view : views()) {
+      view.range_error = true;
+      EXPECT_TRUE(alike(screen_pair(gpu, s.tissue(), view)));
+      PolarPicture picture;
+      gpu.polar(view, {}, {}, picture);
+      EXPECT_TRUE(alike(polar_of(s, view), picture, 0.005));
+    }
+  }
+}
+
 // The last tissue on the way to the front from the middle.
 glm::dvec3 front_of(const volume::Volume& volume, const std::vector<TissueClass>& classes) {
   glm::ivec3 at = volume.size_voxels / 2, skin = at;

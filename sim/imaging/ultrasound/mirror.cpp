@@ -14,54 +14,13 @@ namespace {
 using shaders::UsMirror;
 using volume::TissueClass;
 
-constexpr double kLookMm = 1.0;  // along a beam
-constexpr int kLookHalvings = 5;
-constexpr double kNoLungMm = 1e6;
-// Lung that lies nearer is behind the chest's wall: there repeats of the wall are seen, not a mirror's picture
-// (design).
-constexpr double kLeastMirrorMm = 40.0;
 // The surface is laid through so many beams on either side, while it goes on without a jump, and through so many at
 // least: the steps of voxels are evened out.
 constexpr int kBesideBeams = 8, kLeastBeams = 7;
 constexpr double kMostJumpMm = 4.0;
 
-// Where a beam comes from tissue into lung, at what depth the picture shows that, and the tissue's impedance.
-struct Met {
-  double depth_mm = kNoLungMm, shown_mm = kNoLungMm;
-  double mrayl = 0.0;
-};
-
-Met lung_on(const BeamPath& path, const TissueAt& tissue_at, const UltrasoundView& view) {
-  const AcousticTable& table = acoustic_table();
-  Met met;
-  double shift_mm = 0.0;
-  bool in_tissue = false;
-  for (double z_mm = 0.5 * kLookMm; z_mm < view.depth_mm; z_mm += kLookMm) {
-    const TissueClass here = tissue_at(path.at(z_mm));
-    const double mrayl = table[static_cast<std::size_t>(here)].impedance_mrayl;
-    if (here == TissueClass::lung && in_tissue) {
-      double above = z_mm - kLookMm, below = z_mm;
-      for (int i = 0; i < kLookHalvings; ++i) {
-        const double middle = 0.5 * (above + below);
-        (tissue_at(path.at(middle)) == TissueClass::lung ? below : above) = middle;
-      }
-      met.depth_mm = 0.5 * (above + below);
-      met.shown_mm = met.depth_mm + (view.range_error ? shift_mm : 0.0);
-      return met;
-    }
-    if (shaders::us_is_matched(mrayl)) {
-      in_tissue = true;
-      met.mrayl = mrayl;
-      shift_mm += kLookMm * shaders::us_shift_per_mm(1e-3 * table[static_cast<std::size_t>(here)].speed_m_s);
-    } else if (in_tissue || z_mm > shaders::kUsGelMm) {
-      return {};  // bone or gas lies before it
-    }
-  }
-  return {};
-}
-
-bool is_mirror(const Met& met) {
-  return met.depth_mm >= kLeastMirrorMm && met.depth_mm < kNoLungMm;
+bool is_mirror(const AirMet& met) {
+  return met.tissue == TissueClass::lung && met.depth_mm >= kLeastMirrorMm;
 }
 
 struct Point {
@@ -90,21 +49,13 @@ glm::dvec4 line_through(std::span<const Point> points) {
 
 }  // namespace
 
-std::vector<UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at, const PictureMotion* motion,
-                                 std::span<const float> depth_below_skin_mm) {
-  if (!shows_artefacts(view)) return {};
+std::vector<UsMirror> mirrors_of(const UltrasoundView& view, std::span<const AirMet> met) {
   const Fan fan = fan_of(view);
-  std::vector<Met> met(static_cast<std::size_t>(view.beams));
-  bool any = false;
-  for (int b = 0; b < view.beams; ++b) {
-    Met& one = met[static_cast<std::size_t>(b)];
-    // What a beam in air shows is mirrored nowhere.
-    one = beam_touches(view, depth_below_skin_mm, b) ? lung_on(path_of(fan, motion, b), tissue_at, view)
-                                                     : Met{0.0, 0.0, 0.0};
-    any = any || is_mirror(one);
-  }
-  if (!any) return {};
-  const auto depth_of = [&](int b) { return met[static_cast<std::size_t>(b)].shown_mm; };
+  if (std::none_of(met.begin(), met.end(), is_mirror)) return {};
+  const auto depth_of = [&](int b) {
+    const AirMet& here = met[static_cast<std::size_t>(b)];
+    return here.tissue == TissueClass::gas ? kNoAirMm : here.shown_mm;
+  };
   const auto goes_on = [&](int from, int to) { return std::abs(depth_of(from) - depth_of(to)) < kMostJumpMm; };
   std::vector<UsMirror> mirrors;
   std::vector<Point> points;

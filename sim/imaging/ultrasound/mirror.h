@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shaders/shared/ultrasound_passes.glsl.h"
+#include "sim/imaging/ultrasound/behind_air.h"
 #include "sim/imaging/ultrasound/view/fan.h"
 #include "sim/imaging/ultrasound/view/motion.h"
 
@@ -21,10 +22,14 @@ inline bool tells_layers(const UltrasoundView& view) {
   return view.sight_law >= cases::SightLaw::clutter;
 }
 
-// One a beam; none at all where no beam meets any, or the view shows no artefacts. The surface
-// is a straight line through where neighbouring beams meet it. `motion`: of tissue that moves; else null.
-std::vector<shaders::UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at,
-                                          const PictureMotion* motion, std::span<const float> depth_below_skin_mm);
+// One a beam; none at all where no beam meets lung. The surface is a straight line through where neighbouring beams
+// meet it.
+std::vector<shaders::UsMirror> mirrors_of(const UltrasoundView& view, std::span<const AirMet> met);
+inline std::vector<shaders::UsMirror> mirrors_of(const UltrasoundView& view, const TissueAt& tissue_at,
+                                                 const PictureMotion* motion,
+                                                 std::span<const float> depth_below_skin_mm) {
+  return mirrors_of(view, air_met(view, tissue_at, motion, depth_below_skin_mm));
+}
 
 // What a shader is told that does the same.
 shaders::UsMirrorParameters mirror_parameters(const UltrasoundView& view);

@@ -196,7 +196,9 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
   base::over_rows(
       blocks, view.threads, [] { return Scratch{}; },
       [&](int i, Scratch& scratch) { painter.paint(i * block, std::min(view.beams, (i + 1) * block), scratch); });
-  add_mirrored(view, mirrors_of(view, TissueAt(tissue, inserted), moved, depth_below_skin_mm), picture);
+  const std::vector<AirMet> met = air_met(view, TissueAt(tissue, inserted), moved, depth_below_skin_mm);
+  add_mirrored(view, mirrors_of(view, met), picture);
+  add_haze(view, met, picture);
 }
 
 float level_db_of(float amplitude) noexcept {

@@ -145,6 +145,7 @@ struct UltrasoundGpu::Parts {
   Storage tiles, depths, noise, sums, beams, neighbours, loss_db, interfaces, counts, weights, through, shift_mm,
       echo_counts, echoes, laid, envelope, mirrors, mirrored;
   bool shows_mirrored = false;  // in the last picture
+  std::vector<AirMet> met;      // there
   Storage& shown() noexcept { return shows_mirrored ? mirrored : envelope; }
   std::optional<MovedPrograms> moved;
 };
@@ -272,7 +273,8 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   const LineWalker walker(view, tissue_at, *tissue.volume, inserted, motion);
   const int most_echoes = gpu_walks ? walk_by_gpu(view, walker, motion, depth_below_skin_mm)
                                     : walk_by_cpu(view, walker, depth_below_skin_mm);
-  const std::vector<shaders::UsMirror> meets = mirrors_of(view, tissue_at, motion, depth_below_skin_mm);
+  met = air_met(view, tissue_at, motion, depth_below_skin_mm);
+  const std::vector<shaders::UsMirror> meets = mirrors_of(view, met);
   shows_mirrored = !meets.empty() && view.beams > 1 && view.samples > 1;
   write_block(pulse_parameters, imaging::pulse_parameters(view, fine, most_echoes));
   weights.write(pulse_weights(view, fine));
@@ -317,6 +319,7 @@ void UltrasoundGpu::polar(const UltrasoundView& view, const Inserted& inserted,
   picture.samples = view.samples;
   picture.envelope.resize(static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples));
   parts_->shown().buffer().read(std::as_writable_bytes(std::span(picture.envelope)));
+  add_haze(view, parts_->met, picture);
 }
 
 std::size_t UltrasoundGpu::buffer_bytes() const noexcept {
