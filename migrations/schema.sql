@@ -715,9 +715,9 @@ CREATE TABLE training_case (
   CHECK (ct_breath IN ('expiration', 'inspiration')), breath_depth REAL NOT NULL DEFAULT 0.0
   CHECK (breath_depth BETWEEN 0 AND 3), probe_is_chosen INTEGER NOT NULL DEFAULT 0 CHECK (probe_is_chosen IN (0, 1)), instrument_tip TEXT NOT NULL DEFAULT 'bevel'
   CHECK (instrument_tip IN ('bevel', 'diamond', 'trocar', 'core')), touch_law TEXT NOT NULL DEFAULT 'steady'
-  CHECK (touch_law IN ('steady', 'by_speed', 'organs_move')), sight_law TEXT NOT NULL DEFAULT 'half_slice'
-  CHECK (sight_law IN ('half_slice', 'echo', 'scatter', 'clutter')), breath_law TEXT NOT NULL DEFAULT 'equal_holds'
-  CHECK (breath_law IN ('equal_holds', 'drifting_holds', 'sliding_organs'))) STRICT;
+  CHECK (touch_law IN ('steady', 'by_speed', 'organs_move')), breath_law TEXT NOT NULL DEFAULT 'equal_holds'
+  CHECK (breath_law IN ('equal_holds', 'drifting_holds', 'sliding_organs')), sight_law TEXT NOT NULL DEFAULT 'half_slice'
+  CHECK (sight_law IN ('half_slice', 'echo', 'scatter', 'clutter', 'material'))) STRICT;
 
 CREATE TABLE trusted_key (
   public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),

@@ -17,6 +17,9 @@ namespace seldinger::assessment {
   ": what pictures showed by the law half_slice, as cases of that law still have it (decision 0057)."
 #define SELDINGER_WITHOUT_CLUTTER \
   ": without clutter in ultrasound, as cases of the law scatter and before still have it (decision 0090)."
+#define SELDINGER_WITHOUT_IODINE                                                                              \
+  ": with a CT's contrast medium as bone under X-rays, as cases of the law clutter and before still have it " \
+  "(decision 0098)."
 #define SELDINGER_BY_ECHO \
   ": without what is scattered under X-rays, as cases of the law echo still have it (decision 0082)."
 

@@ -81,13 +81,13 @@ constexpr std::uint32_t kShares =
     kAnyPlace | kAtAnySpeed | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 
 constexpr MetricInfo kVisibilityMetrics[] = {
-    {"vis_joint", 5, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
+    {"vis_joint", 6, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kSkin | kPictures, "As vis_needle, for tip and target at once. Null: as vis_target.",
      kVidal, &share<&Shares::joint_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_BY_HALF_SLICE
-     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
+     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE,
      kAsksForAnyPicture},
-    {"vis_needle", 5, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
+    {"vis_needle", 6, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Share of the time in tissue in which a live picture showed the needle's tip. A frozen picture shows nothing, "
      "but its time counts. Under fluoroscopy the share is of the time with a live picture only; a picture lasts "
@@ -95,7 +95,7 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "under_1_s_in_tissue_with_a_live_picture).",
      kVidal, &share<&Shares::needle_s, Shown::needle>, kMedianShare, kShares,
      "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_BY_HALF_SLICE
-     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
+     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE,
      kAsksForAnyPicture},
     {"vis_shaft", 3, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
@@ -103,7 +103,7 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      kJohnson, &share<&Shares::shaft_s, Shown::needle>, kMedianShare, kShares,
      "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
      kAsksForShaft},
-    {"vis_target", 5, "share", "Target visible", Group::picture, Direction::higher_is_better,
+    {"vis_target", 6, "share", "Target visible", Group::picture, Direction::higher_is_better,
      kTarget | kSkin | kPictures,
      "As vis_needle, for the target. Null: as vis_needle; no_view_shows_target (fluoroscope: none did, and none "
      "could: across its whole width the target attenuates under 5 % more or less than what lies around it). Under "
@@ -111,15 +111,16 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "that echoes like what lies around it, or that bone or gas hides from everywhere, is not seen: 0.",
      kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone, and 0 where no picture could show the target; "
-     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER,
+     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER
+     " 5" SELDINGER_WITHOUT_IODINE,
      kAsksForAnyPicture},
-    {"vis_joint_session", 5, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
+    {"vis_joint_session", 6, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kPictures,
      "Share of the whole time, gaps left out, in which a live picture showed tip and target at once. Null: "
      "under_1_s, no_view_shows_target.",
      kVidal, &vis_joint_session, kMedianShare, kAnyPlace | kAtAnySpeed,
      "1: 0 where no picture could show the target; 2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO
-     " 4" SELDINGER_WITHOUT_CLUTTER,
+     " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE,
      kAsksForAnyPicture},
     {"vis_joint_2_mm", 2, "share", "Both within 2 mm", Group::picture, Direction::higher_is_better,
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,

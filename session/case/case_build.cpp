@@ -1,7 +1,10 @@
 #include "session/case/case_build.h"
 
+#include <charconv>
 #include <glm/mat4x4.hpp>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -73,6 +76,17 @@ void take_setting(const casedb::CaseSetting& setting, cases::Case& scene) {
   scene.sight_law = setting.sight_law;
 }
 
+// Of the CT's scanner, as the file said.
+std::optional<double> tube_kv_of(const std::vector<std::pair<std::string, std::string>>& attributes) {
+  for (const auto& [name, value] : attributes) {
+    double kv = 0.0;
+    if (name == "tube_voltage_kv" &&
+        std::from_chars(value.data(), value.data() + value.size(), kv).ec == std::errc())
+      return kv;
+  }
+  return std::nullopt;
+}
+
 // Of all that was painted.
 void finish(Needs needs, cases::Case& scene) {
   if (needs == Needs::ultrasound) {
@@ -138,6 +152,7 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.skin_index = std::move(assets.skin_index);
   scene.picture = picture;
   take_setting(row, scene);
+  scene.ct_tube_kv = tube_kv_of(row.attributes);
 
   const std::vector<casedb::StructureRow> structures = casedb::list_structures(library, row.case_id);
   Voxels voxels(library, row, scene.volume, assets.classes);
@@ -177,6 +192,7 @@ cases::Case build_case(const casedb::NewCase& made, const cases::Picture& pictur
   scene.skin_index = cases::MeshIndex(scene.skin);
   scene.picture = picture;
   take_setting(made, scene);
+  scene.ct_tube_kv = tube_kv_of(made.attributes);
   if (needs != Needs::metrics) scene.classes = std::move(classes);
   finish(needs, scene);
   return scene;

@@ -6,8 +6,10 @@
 #include "session/guidance/frame_truth.h"
 #include "sim/base/check.h"
 #include "sim/case/c_arm.h"
+#include "sim/imaging/xray/beam/attenuation.h"
 #include "sim/imaging/xray/c_arm.h"
 #include "sim/imaging/xray/contrast.h"
+#include "sim/imaging/xray/enhanced.h"
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/live_picture.h"
@@ -34,6 +36,18 @@ imaging::Inserted inserted_of(const cases::Case& scene, const cases::NeedleState
   return inserted;
 }
 
+// Earlier laws of sight take every CT for one of 120 kV without contrast medium.
+double ct_kev_of(const cases::Case& scene) {
+  return scene.sight_law >= cases::SightLaw::material ? imaging::ct_effective_kev(scene.ct_tube_kv)
+                                                      : imaging::kHuEnergyKev;
+}
+
+std::unique_ptr<imaging::Enhancement> enhancement_of(const cases::Case& scene) {
+  if (scene.sight_law < cases::SightLaw::material) return nullptr;
+  auto enhancement = std::make_unique<imaging::Enhancement>(scene);
+  return enhancement->any() ? std::move(enhancement) : nullptr;
+}
+
 }  // namespace
 
 struct FluoroscopySight::Parts {
@@ -42,15 +56,19 @@ struct FluoroscopySight::Parts {
         projector(scene.volume),
         moved(scene.volume),
         contrast(scene.volume, tissue::Lumens(scene)),
+        enhancement(enhancement_of(scene)),
         live(scene.volume, projector),
-        beams(scene.fluoroscope),
-        automatic(scene.fluoroscope) {}
+        beams(scene.fluoroscope, {}, {ct_kev_of(scene), enhancement != nullptr}),
+        automatic(scene.fluoroscope) {
+    if (enhancement) live.take_patient(scene.volume, projector, enhancement->at_rest());
+  }
 
   const cases::Case& scene;
   imaging::XrayCpu projector;
   imaging::MovedVolume moved;
   imaging::ContrastMedium contrast;
-  std::uint64_t moves = 0;  // how often `moved` changed
+  std::unique_ptr<imaging::Enhancement> enhancement;  // null: the CT is not enhanced
+  std::uint64_t moves = 0;                            // how often `moved` changed
   imaging::LivePicture live;
   std::uint64_t live_tissue = 0;  // Tissue::version of what is in it
   imaging::Beams beams;
@@ -60,7 +78,8 @@ struct FluoroscopySight::Parts {
   std::uint64_t metered_tissue = 0;
   std::optional<cases::CArm> metered_arm;
   int metered_magnification = 0;
-  imaging::PathLengths metered;
+  imaging::PathLengths metered, metered_iodine;
+  imaging::PathLengths metered_patient;  // where the CT is enhanced: with iodine told from mineral
 
   imaging::XrayGeometry geometry(const cases::FluoroscopyState& machine, int size_px) const {
     return imaging::c_arm_geometry(scene.fluoroscope, machine.arm, machine.magnification, size_px, scene.position);
@@ -70,12 +89,19 @@ struct FluoroscopySight::Parts {
   struct Tissue {
     const volume::Volume& volume;
     const imaging::XrayCpu& projector;
+    std::optional<imaging::EnhancedTissue> enhanced{};  // what of it is iodine
     std::uint64_t version = 0;
   };
   Tissue tissue_in(const imaging::XrayGeometry& beam, const tissue::Displacement& displacement) {
-    if (tissue::count_sources(displacement) == 0) return {scene.volume, projector};
+    Tissue tissue{scene.volume, projector};
+    if (tissue::count_sources(displacement) == 0) {
+      if (enhancement) tissue.enhanced = enhancement->at_rest();
+      return tissue;
+    }
     if (moved.move(displacement, beam)) ++moves;
-    return {moved.volume(), moved.projector(), moves};
+    Tissue tissue_moved{moved.volume(), moved.projector(), {}, moves};
+    if (enhancement) tissue_moved.enhanced = enhancement->moved(displacement, beam);
+    return tissue_moved;
   }
 
   // Of contrast medium on each pixel's ray; empty: there is none.
@@ -92,6 +118,11 @@ struct FluoroscopySight::Parts {
       imaging::CpuOptions options;
       options.threads = 1;  // it takes less than starting another
       metered = tissue.projector.project(at, imaging::ProjectionMethod::exact, options);
+      if (tissue.enhanced) {
+        metered_iodine = tissue.enhanced->project(at, options);
+        metered_patient = metered;
+        imaging::tell_iodine(*tissue.enhanced, at, {}, metered_iodine, metered_patient);
+      }
       metered_arm = machine.arm;
       metered_tissue = tissue.version;
       metered_magnification = machine.magnification;
@@ -99,12 +130,12 @@ struct FluoroscopySight::Parts {
     return metered;
   }
 
-  // What instruments and contrast medium scatter is next to nothing.
+  // What instruments and injected contrast medium scatter is next to nothing.
   imaging::Pulse pulse_of(const cases::FluoroscopyState& machine, const Tissue& tissue) {
     imaging::Pulse pulse{machine.last_technique, machine.arm.sid_mm, machine.magnification, machine.collimator};
-    if (scene.sight_law >= cases::SightLaw::scatter)
-      pulse.scatter =
-          imaging::scatter_share(beams, pulse, meter_lengths(machine, geometry(machine, kMeterPx), tissue));
+    if (scene.sight_law < cases::SightLaw::scatter) return pulse;
+    const imaging::PathLengths& lengths = meter_lengths(machine, geometry(machine, kMeterPx), tissue);
+    pulse.scatter = imaging::scatter_share(beams, pulse, tissue.enhanced ? metered_patient : lengths);
     return pulse;
   }
 };
@@ -127,6 +158,8 @@ FluoroscopySight::Exposed FluoroscopySight::expose(const cases::State& state,
   imaging::PathLengths lengths = parts_->meter_lengths(machine, geometry, tissue);
   imaging::overlay_instruments(tissue.volume, geometry, inserted, imaging::ProjectionMethod::exact, lengths);
   lengths.contrast_mm = parts_->contrast_in(state, geometry, displacement, 1);
+  const bool injected = !lengths.contrast_mm.empty();
+  if (tissue.enhanced) imaging::tell_iodine(*tissue.enhanced, geometry, inserted, parts_->metered_iodine, lengths);
   // Step decides between this and what is set by hand.
   exposed.report = imaging::meter(parts_->beams, parts_->automatic, pulse, lengths, cases::FluoroscopeInputs{});
   exposed.report.frame = machine.frames;
@@ -137,9 +170,9 @@ FluoroscopySight::Exposed FluoroscopySight::expose(const cases::State& state,
           imaging::hand_at_needle(state.needle.tip_lps_mm, state.needle.direction, scene.instrument.length_mm),
           imaging::kHandRadiusMm);
 
-  const imaging::Visible visible =
-      imaging::xray_visible(tissue.volume, geometry, parts_->beams.at(machine.last_technique.kv), pulse, inserted,
-                            lengths.contrast_mm.empty() ? nullptr : &parts_->contrast.shown());
+  const imaging::Visible visible = imaging::xray_visible(
+      tissue.volume, geometry, parts_->beams.at(machine.last_technique.kv), pulse, inserted,
+      injected ? &parts_->contrast.shown() : nullptr, tissue.enhanced ? &*tissue.enhanced : nullptr);
   exposed.truth = frame_truth(state.t_s, visible);
   exposed.truth.beam = cases::BeamTruth{machine.arm.lao_deg,
                                         machine.arm.cranial_deg,
@@ -179,7 +212,8 @@ GreyPicture FluoroscopySight::picture(const cases::State& state, std::uint64_t s
   settings.flaws = parts_->flaws;
   const imaging::XrayGeometry geometry = parts_->geometry(machine, scene.fluoroscope.picture_px);
   const Parts::Tissue tissue = parts_->tissue_in(geometry, displacement);
-  if (tissue.version != parts_->live_tissue) parts_->live.take_patient(tissue.volume, tissue.projector);
+  if (tissue.version != parts_->live_tissue)
+    parts_->live.take_patient(tissue.volume, tissue.projector, tissue.enhanced);
   parts_->live_tissue = tissue.version;
   const imaging::FluoroscopyPicture& picture = parts_->live.expose(
       geometry, machine.arm_moving, inserted_of(scene, state.needle, displacement),

@@ -77,13 +77,15 @@ enum class SightLaw {
   half_slice,  // the tip within half the slice's width at any tilt, a target of any size by its contrast
   echo,        // the tip by its echo alone, a target by contrast and size
   scatter,     // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
-  clutter      // with clutter in ultrasound (docs/decisions/0090)
+  clutter,     // with clutter in ultrasound (docs/decisions/0090)
+  material     // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098)
 };
 inline constexpr auto kSightLawNames = base::names<SightLaw>({{SightLaw::half_slice, "half_slice"},
                                                               {SightLaw::echo, "echo"},
                                                               {SightLaw::scatter, "scatter"},
-                                                              {SightLaw::clutter, "clutter"}});
-inline constexpr SightLaw kNewestSightLaw = SightLaw::clutter;
+                                                              {SightLaw::clutter, "clutter"},
+                                                              {SightLaw::material, "material"}});
+inline constexpr SightLaw kNewestSightLaw = SightLaw::material;
 
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.
@@ -98,6 +100,7 @@ struct Picture {
 
 struct Case {
   volume::Volume volume;
+  std::optional<double> ct_tube_kv{};  // of the scanner; nothing: not known
   // Of every voxel, in the volume's order; where something is felt or seen by ultrasound, else empty.
   std::vector<volume::TissueClass> classes;
   std::vector<std::uint8_t> echogenicity;  // as imaging makes it of volume and classes

@@ -54,13 +54,13 @@ int whole_kv(double kv) noexcept {
 
 }  // namespace
 
-Beams::Beams(const cases::Fluoroscope& fluoroscope, const Detector& detector)
-    : fluoroscope_(fluoroscope), detector_(detector) {}
+Beams::Beams(const cases::Fluoroscope& fluoroscope, const Detector& detector, const BehindCt& ct)
+    : fluoroscope_(fluoroscope), detector_(detector), ct_(ct) {}
 
 const BeamSignal& Beams::at(double kv) {
   CHECK(std::isfinite(kv));
   auto& beam = by_kv_[whole_kv(kv)];
-  if (!beam) beam = std::make_unique<BeamSignal>(fluoroscope_spectrum(fluoroscope_, whole_kv(kv)), detector_);
+  if (!beam) beam = std::make_unique<BeamSignal>(fluoroscope_spectrum(fluoroscope_, whole_kv(kv)), detector_, ct_);
   return *beam;
 }
 
@@ -131,21 +131,24 @@ double scatter_share(Beams& beams, const Pulse& pulse, const PathLengths& field)
   CHECK(field.width_px > 0 && field.height_px > 0);
   const cases::Fluoroscope& f = beams.fluoroscope();
   const BeamSignal& beam = beams.at(pulse.technique.kv);
-  // How thick the patient is, by steps of water; mineral counts as what it takes off behind an abdomen.
+  // How thick the patient is, by steps of water; mineral and iodine count as what they take off behind an
+  // abdomen.
   constexpr double kStepMm = 5.0, kBehindMm = 200.0;
   constexpr std::size_t kSteps = 121;
-  const auto weight = [&](double water_mm, double mineral_mm) {
-    return beam.log_share(kBehindMm, 0.0) - beam.log_share(kBehindMm + water_mm, mineral_mm);
+  const auto weight = [&](double water_mm, double mineral_mm, double contrast_mm = 0.0) {
+    return beam.log_share(kBehindMm, 0.0) - beam.log_share(kBehindMm + water_mm, mineral_mm, 0.0, contrast_mm);
   };
   const double water_per_mineral = weight(0.0, 1.0) / weight(1.0, 0.0);
+  const double water_per_contrast = field.contrast_mm.empty() ? 0.0 : weight(0.0, 0.0, 1.0) / weight(1.0, 0.0);
   std::array<double, kSteps> pixels{};
   const OpenField open = open_field(field.width_px, field.height_px, pulse.collimator);
   for (int row = open.first_row; row < open.end_row; ++row)
     for (int column = open.first_column; column < open.end_column; ++column) {
       const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(field.width_px) +
                             static_cast<std::size_t>(column);
-      const double water_mm =
+      double water_mm =
           static_cast<double>(field.water_mm[i]) + water_per_mineral * static_cast<double>(field.mineral_mm[i]);
+      if (!field.contrast_mm.empty()) water_mm += water_per_contrast * static_cast<double>(field.contrast_mm[i]);
       const double steps = std::clamp(water_mm / kStepMm, 0.0, kSteps - 1.0);
       const auto at = static_cast<std::size_t>(std::min(steps, kSteps - 2.0));
       const double above = steps - static_cast<double>(at);

@@ -24,7 +24,7 @@ constexpr double kMeasuringShare = 0.5;
 // kilovolts. For one thread at a time.
 class Beams {
  public:
-  explicit Beams(const cases::Fluoroscope& fluoroscope, const Detector& detector = {});
+  explicit Beams(const cases::Fluoroscope& fluoroscope, const Detector& detector = {}, const BehindCt& ct = {});
   // kv is rounded to a whole number within kMinTubeKv … kMaxTubeKv.
   const BeamSignal& at(double kv);
   const cases::Fluoroscope& fluoroscope() const noexcept { return fluoroscope_; }
@@ -33,6 +33,7 @@ class Beams {
  private:
   cases::Fluoroscope fluoroscope_;
   Detector detector_;
+  BehindCt ct_;
   std::map<int, std::unique_ptr<BeamSignal>> by_kv_;
 };
 

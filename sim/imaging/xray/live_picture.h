@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "sim/imaging/xray/enhanced.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection/projection.h"
@@ -19,10 +20,12 @@ class LivePicture {
   // Both must outlive it.
   LivePicture(const volume::Volume& volume, const XrayCpu& projector) : volume_(&volume), projector_(&projector) {}
 
-  // From now on these: the patient has moved, and is integrated anew.
-  void take_patient(const volume::Volume& volume, const XrayCpu& projector) noexcept {
+  // From now on these: the patient has moved, and is integrated anew. `enhanced`: what of it is iodine.
+  void take_patient(const volume::Volume& volume, const XrayCpu& projector,
+                    const std::optional<EnhancedTissue>& enhanced = {}) noexcept {
     volume_ = &volume;
     projector_ = &projector;
+    enhanced_ = enhanced;
     geometry_.reset();
   }
 
@@ -42,10 +45,11 @@ class LivePicture {
  private:
   const volume::Volume* volume_;
   const XrayCpu* projector_;
+  std::optional<EnhancedTissue> enhanced_;
   std::optional<XrayGeometry> geometry_;  // of patient_
   bool coarse_ = false;
-  PathLengths patient_;  // without instruments
-  PathLengths lengths_;  // with them; kept for its memory
+  PathLengths patient_, iodine_;  // without instruments; of enhanced_
+  PathLengths lengths_;           // with them; kept for its memory
   FluoroscopyPicture picture_;
   int integrations_ = 0;
 };

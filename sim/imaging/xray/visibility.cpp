@@ -50,10 +50,33 @@ std::optional<RayThrough> ray_through(const volume::Volume& volume, const XrayGe
   return through;
 }
 
-double log_share(const BeamSignal& beam, const RayLengths& volume, const OverlaidLengths& overlaid,
-                 double contrast_mm) {
-  return beam.log_share(volume.water_mm + overlaid.water_mm, volume.mineral_mm + overlaid.mineral_mm,
-                        overlaid.iron_mm, contrast_mm);
+// What lies on a ray once, and what of it is contrast medium.
+struct Laid {
+  Inserted inserted;
+  std::optional<Inserted> in_iodine;  // the same in EnhancedTissue's volume; nothing: the CT is not enhanced
+  double contrast_mm = 0.0;           // that was injected
+};
+
+// Of the volume alone.
+struct OnRay {
+  RayLengths lengths;
+  double iodine_mm = 0.0;  // at 1000 HU more
+};
+
+double log_share(const BeamSignal& beam, const volume::Volume& volume, const RaySegment& ray, const OnRay& on_ray,
+                 const Laid& laid, const EnhancedTissue* enhanced) {
+  const OverlaidLengths overlaid = overlaid_lengths(volume, ray, laid.inserted, ProjectionMethod::exact);
+  const double water_mm = on_ray.lengths.water_mm + overlaid.water_mm,
+               mineral_mm = on_ray.lengths.mineral_mm + overlaid.mineral_mm;
+  if (enhanced == nullptr) return beam.log_share(water_mm, mineral_mm, overlaid.iron_mm, laid.contrast_mm);
+  const OverlaidLengths here = overlaid_lengths(*enhanced->volume, ray, *laid.in_iodine, ProjectionMethod::exact);
+  const double iodine_mm = on_ray.iodine_mm + here.water_mm + here.mineral_mm;
+  return beam.log_share(water_mm, mineral_mm - iodine_mm, overlaid.iron_mm,
+                        laid.contrast_mm + enhanced->contrast_mm * iodine_mm);
+}
+
+std::optional<Inserted> in_iodine(const EnhancedTissue* enhanced, const Inserted& inserted) {
+  return enhanced != nullptr ? std::optional(enhanced->inserted_here(inserted)) : std::nullopt;
 }
 
 double contrast_between_mm(const volume::Volume* contrast, const glm::dvec3& from_lps_mm,
@@ -62,14 +85,14 @@ double contrast_between_mm(const volume::Volume* contrast, const glm::dvec3& fro
 }
 
 Contrast contrast_on(const volume::Volume& volume, const RayThrough& through, const BeamSignal& beam,
-                     const Pulse& pulse, const Inserted& with, const Inserted& without, double patch_mm2,
-                     double contrast_mm, double contrast_without_mm) {
+                     const Pulse& pulse, const Laid& with, const Laid& without, double patch_mm2,
+                     const EnhancedTissue* enhanced) {
   const RaySegment& ray = through.ray;
-  const RayLengths lengths = lengths_between(volume, ray.from_lps_mm, ray.to_lps_mm);
-  const double log_with =
-      log_share(beam, lengths, overlaid_lengths(volume, ray, with, ProjectionMethod::exact), contrast_mm);
-  const double log_without = log_share(
-      beam, lengths, overlaid_lengths(volume, ray, without, ProjectionMethod::exact), contrast_without_mm);
+  OnRay on_ray{lengths_between(volume, ray.from_lps_mm, ray.to_lps_mm)};
+  if (enhanced != nullptr)
+    on_ray.iodine_mm = lengths_between(*enhanced->volume, ray.from_lps_mm, ray.to_lps_mm).total_mm();
+  const double log_with = log_share(beam, volume, ray, on_ray, with, enhanced);
+  const double log_without = log_share(beam, volume, ray, on_ray, without, enhanced);
   const double primary = std::exp(log_without), all = primary + pulse.scatter.value_or(0.0);
   const double quanta = all * pulse.grid_passes() * beam.open_quanta_per_mas_mm2() * pulse.mas() * patch_mm2 * 1e6 /
                         (through.focus_panel_mm * through.focus_panel_mm);
@@ -132,7 +155,8 @@ SegmentPart shaft_in_field(const XrayGeometry& g, const cases::Collimator& colli
 
 std::optional<Contrast> needle_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
                                         const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
-                                        double behind_tip_mm, const volume::Volume* contrast) {
+                                        double behind_tip_mm, const volume::Volume* contrast,
+                                        const EnhancedTissue* enhanced) {
   if (!inserted.needle || !is_finite(*inserted.needle)) return std::nullopt;
   const NeedlePose& needle = *inserted.needle;
   const auto through =
@@ -143,28 +167,35 @@ std::optional<Contrast> needle_contrast(const volume::Volume& volume, const Xray
   const double width_mm = 2.0 * needle.radius_mm * through->magnification;
   const double length_mm =
       std::max(width_mm, std::min(kTipElementMm, needle.length_mm) * across * through->magnification);
-  Inserted without = inserted;
-  without.needle.reset();
-  const double contrast_mm = contrast_between_mm(contrast, through->ray.from_lps_mm, through->ray.to_lps_mm);
-  return contrast_on(volume, *through, beam, pulse, inserted, without, width_mm * length_mm, contrast_mm,
-                     contrast_mm);
+  const Laid with{inserted, in_iodine(enhanced, inserted),
+                  contrast_between_mm(contrast, through->ray.from_lps_mm, through->ray.to_lps_mm)};
+  Laid without = with;
+  without.inserted.needle.reset();
+  if (without.in_iodine) without.in_iodine->needle.reset();
+  return contrast_on(volume, *through, beam, pulse, with, without, width_mm * length_mm, enhanced);
 }
 
 std::optional<Contrast> target_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
                                         const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
-                                        const volume::Volume* contrast) {
+                                        const volume::Volume* contrast, const EnhancedTissue* enhanced) {
   if (inserted.lesions.empty()) return std::nullopt;
   const cases::Lesion& target = inserted.lesions.front();
   const auto through = ray_through(volume, geometry, target.center_lps_mm, pulse.sid_mm);
   if (!through) return std::nullopt;
-  Inserted with{std::nullopt, inserted.lesions}, without = with;
+  Laid with{{std::nullopt, inserted.lesions}, in_iodine(enhanced, {std::nullopt, inserted.lesions})};
   if (target.in_volume()) {  // drawn as the ball of its volume: once as it is, once as what was there
-    with.lesions.front().shape = without.lesions.front().shape = nullptr;
-    without.lesions.front().hu = target.around_hu;
-  } else if (const auto about = cases::hu_about(volume, target)) {
-    without.lesions.front().hu = *about;
-  } else {
-    without.lesions.erase(without.lesions.begin());
+    with.inserted.lesions.front().shape = nullptr;
+    if (with.in_iodine) with.in_iodine->lesions.front().shape = nullptr;
+  }
+  Laid without = with;
+  const auto about = target.in_volume() ? std::optional(target.around_hu) : cases::hu_about(volume, target);
+  for (Inserted* laid : {&without.inserted, without.in_iodine ? &*without.in_iodine : nullptr}) {
+    if (laid == nullptr) continue;
+    if (about)
+      laid->lesions.front().hu =
+          laid == &without.inserted ? *about : cases::hu_about(*enhanced->volume, target).value_or(kNotEnhancedHu);
+    else
+      laid->lesions.erase(laid->lesions.begin());
   }
   const double shadow_mm2 =
       kPi * target.radius_mm * target.radius_mm * through->magnification * through->magnification;
@@ -172,14 +203,15 @@ std::optional<Contrast> target_contrast(const volume::Volume& volume, const Xray
   const RaySegment& ray = through->ray;
   const Chord ball = sphere_chord(ray, target.center_lps_mm, target.radius_mm);
   const auto at = [&](double t) { return ray.from_lps_mm + t * (ray.to_lps_mm - ray.from_lps_mm); };
-  const double contrast_mm = contrast_between_mm(contrast, ray.from_lps_mm, ray.to_lps_mm);
-  const double in_target_mm = contrast_between_mm(contrast, at(ball.enter), at(ball.leave));
+  with.contrast_mm = contrast_between_mm(contrast, ray.from_lps_mm, ray.to_lps_mm);
+  without.contrast_mm = with.contrast_mm - contrast_between_mm(contrast, at(ball.enter), at(ball.leave));
   return contrast_on(volume, *through, beam, pulse, with, without, std::min(shadow_mm2, kLargestPatchMm2),
-                     contrast_mm, contrast_mm - in_target_mm);
+                     enhanced);
 }
 
 Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry, const BeamSignal& beam,
-                     const Pulse& pulse, const Inserted& inserted, const volume::Volume* contrast) {
+                     const Pulse& pulse, const Inserted& inserted, const volume::Volume* contrast,
+                     const EnhancedTissue* enhanced) {
   Visible visible;
   const auto hit_in_field = [&](const glm::dvec3& p_lps_mm) {
     const auto through = ray_through(volume, geometry, p_lps_mm, pulse.sid_mm);
@@ -188,7 +220,8 @@ Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry,
   if (inserted.needle && is_finite(*inserted.needle)) {
     const NeedlePose& needle = *inserted.needle;
     const auto seen_at = [&](double behind_tip_mm) {
-      const auto found = needle_contrast(volume, geometry, beam, pulse, inserted, behind_tip_mm, contrast);
+      const auto found =
+          needle_contrast(volume, geometry, beam, pulse, inserted, behind_tip_mm, contrast, enhanced);
       return found && found->visible();
     };
     visible.needle_tip =
@@ -198,7 +231,7 @@ Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry,
       visible.needle_length_mm = (part.to - part.from) * needle.length_mm;
   }
   if (!inserted.lesions.empty() && hit_in_field(inserted.lesions.front().center_lps_mm)) {
-    const auto found = target_contrast(volume, geometry, beam, pulse, inserted, contrast);
+    const auto found = target_contrast(volume, geometry, beam, pulse, inserted, contrast, enhanced);
     visible.target = found && found->visible();
   }
   visible.joint = visible.needle_tip && visible.target;

@@ -13,6 +13,7 @@
 
 #include "sim/imaging/inserted.h"
 #include "sim/imaging/visible.h"
+#include "sim/imaging/xray/enhanced.h"
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/projection/projection.h"
 
@@ -31,20 +32,24 @@ struct Contrast {
 
 // In `geometry`, of the whole field, with the pulse's technique and collimator (of a parallel geometry also its
 // sid_mm, for the dose). The target is inserted.lesions[0]; the other lesions and the needle lie in the volume as
-// inserted. `contrast`: what contrast medium there is (ContrastMedium::shown); null: none. A pose that is not
+// inserted. `contrast`: what contrast medium there is (ContrastMedium::shown); null: none;
+// `enhanced`: what of the volume is iodine; null: nothing. A pose that is not
 // finite is not shown; `needle_length_mm` is the length of the shaft inside the field, 0 where the middle of that
 // part is not visible. `geometry` in order (check_geometry).
 Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry, const BeamSignal& beam,
-                     const Pulse& pulse, const Inserted& inserted, const volume::Volume* contrast = nullptr);
+                     const Pulse& pulse, const Inserted& inserted, const volume::Volume* contrast = nullptr,
+                     const EnhancedTissue* enhanced = nullptr);
 
 // Of the shaft at this distance behind the tip, 0 ≤ behind_tip_mm ≤ length; none when the needle is not there, or
 // the point is not between source and panel.
 std::optional<Contrast> needle_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
                                         const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
-                                        double behind_tip_mm, const volume::Volume* contrast = nullptr);
+                                        double behind_tip_mm, const volume::Volume* contrast = nullptr,
+                                        const EnhancedTissue* enhanced = nullptr);
 // Of the target on the ray through its centre.
 std::optional<Contrast> target_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
                                         const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
-                                        const volume::Volume* contrast = nullptr);
+                                        const volume::Volume* contrast = nullptr,
+                                        const EnhancedTissue* enhanced = nullptr);
 
 }  // namespace seldinger::imaging

@@ -113,6 +113,16 @@ TEST_F(CaseBuild, TouchIsByTheCasesLawAndTip) {
   EXPECT_EQ(build({}, Needs::touch).touch.tip, cases::NeedleTip::trocar);
 }
 
+// The scanner's voltage comes with the CT, where its file said it.
+TEST_F(CaseBuild, TheScannersVoltageIsTheFiles) {
+  EXPECT_FALSE(build({}, Needs::metrics).ct_tube_kv.has_value());
+  casedb::NewCase made = fixtures::new_ball();
+  made.attributes = {{"slice_thickness_mm", "5"}, {"tube_voltage_kv", "100"}};
+  EXPECT_EQ(build_case(made, {}, Needs::metrics).ct_tube_kv, 100.0);
+  case_id_ = casedb::add_case(library_, made);
+  EXPECT_EQ(build({}, Needs::touch).ct_tube_kv, 100.0);
+}
+
 TEST_F(CaseBuild, OnlyWhatIsNeededIsBuilt) {
   add("vessel", cases::Sphere{{0, 20, 0}, 8.0}, TissueClass::vessel, 43.0);
   EXPECT_TRUE(build(ellipsoid(), Needs::metrics).classes.empty());

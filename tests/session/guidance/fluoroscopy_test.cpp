@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "app/attempts/this_program.h"
 #include "assessment/operators/plan.h"
@@ -14,6 +15,7 @@
 #include "session/attempt/replayed_attempt.h"
 #include "session/attempt/simulated_attempt.h"
 #include "sim/engine/step.h"
+#include "sim/imaging/xray/beam/attenuation.h"
 #include "sim/imaging/xray/c_arm.h"
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/instruments.h"
@@ -214,6 +216,95 @@ TEST(FluoroscopySight, ScattersByTheCasesLawOfSight) {
                                machine.collimator};
   EXPECT_EQ(before.report.next,
             imaging::meter(beams, imaging::AutomaticExposure(older.fluoroscope), primary, lengths, {}).next);
+}
+
+// A ball with a vessel of 243 HU through it, its target beside that; the scanner's voltage is known.
+cases::Case enhanced_ball() {
+  cases::Case scene = breathing_ball();
+  scene.classes.assign(scene.volume.hu.size(), volume::TissueClass::soft_tissue);
+  for (int k = 0; k < scene.volume.size_voxels.z; ++k)
+    for (int j = 0; j < scene.volume.size_voxels.y; ++j)
+      for (int i = 0; i < scene.volume.size_voxels.x; ++i) {
+        const std::size_t voxel = scene.volume.index(i, j, k);
+        if (scene.volume.hu[voxel] < 0 || glm::length(glm::dvec2(i - 40, k - 44)) > 4.0) continue;
+        scene.volume.hu[voxel] = 243;
+        scene.classes[voxel] = volume::TissueClass::vessel;
+      }
+  scene.ct_tube_kv = 80.0;
+  return scene;
+}
+
+// Cases of earlier laws know nothing of it, to the bit; nor does one of today that has no classes and no voltage.
+TEST(FluoroscopySight, TellsIodineByTheCasesLawOfSight) {
+  const cases::Case scene = enhanced_ball();
+  cases::Case older = scene, nothing_known = scene, older_nothing = scene, usual_kv = scene;
+  older.sight_law = older_nothing.sight_law = cases::SightLaw::clutter;
+  for (cases::Case* one : {&nothing_known, &older_nothing}) {
+    one->classes.clear();
+    one->ct_tube_kv.reset();
+  }
+  usual_kv.ct_tube_kv = 120.0;
+  const auto state = pulse(scene, {0, -40, 0}, kAcross);
+  for (const tissue::Displacement& displacement : {tissue::Displacement{}, breathed_in(scene)}) {
+    const auto of = [&](const cases::Case& one) {
+      FluoroscopySight room(one);
+      return std::pair(room.expose(state, displacement).report, room.picture(state, 7, displacement).grey);
+    };
+    const auto today = of(scene), before = of(older);
+    EXPECT_EQ(before, of(older_nothing));
+    EXPECT_EQ(before, of(nothing_known));
+    EXPECT_NE(today.first.next, before.first.next);
+    EXPECT_NE(today.second, before.second);
+    EXPECT_NE(today.second, of(usual_kv).second);
+  }
+}
+
+// What is metered is what stands in the picture: by hand from lengths of iodine, mineral and water.
+TEST(FluoroscopySight, MetersTheCtsIodine) {
+  cases::Case scene = enhanced_ball();
+  const auto state = pulse(scene, kAway, kAcross);
+  FluoroscopySight room(scene);
+  const cases::FluoroscopyState& machine = state.fluoroscopy;
+  const imaging::XrayGeometry geometry =
+      imaging::c_arm_geometry(scene.fluoroscope, machine.arm, machine.magnification, 64, scene.position);
+  cases::Case plain = scene;
+  volume::Volume vessel = scene.volume;
+  for (std::size_t i = 0; i < vessel.hu.size(); ++i) {
+    const bool blood = scene.classes[i] == volume::TissueClass::vessel;
+    if (blood) plain.volume.hu[i] = 43;
+    vessel.hu[i] = blood ? -800 : -1000;
+  }
+  const auto project = [&](const volume::Volume& volume) {
+    return imaging::XrayCpu(volume).project(geometry, imaging::ProjectionMethod::exact, {.threads = 1});
+  };
+  const double ct_kev = imaging::ct_effective_kev(80.0);
+  imaging::PathLengths lengths = project(plain.volume);
+  lengths.contrast_mm = project(vessel).water_mm;
+  for (float& mm : lengths.contrast_mm) mm *= static_cast<float>(imaging::contrast_mm_of_1000_hu(ct_kev));
+  imaging::Beams beams(scene.fluoroscope, {}, {ct_kev, true});
+  imaging::Pulse by_hand{machine.last_technique, machine.arm.sid_mm, machine.magnification, machine.collimator};
+  by_hand.scatter = imaging::scatter_share(beams, by_hand, lengths);
+  const imaging::Inserted inserted{
+      imaging::needle_pose(scene.instrument, state.needle.tip_lps_mm, state.needle.direction), scene.lesions};
+  imaging::overlay_instruments(plain.volume, geometry, inserted, imaging::ProjectionMethod::exact, lengths);
+  const auto next = imaging::meter(beams, imaging::AutomaticExposure(scene.fluoroscope), by_hand, lengths, {}).next;
+  const auto exposed = room.expose(state).report.next;
+  EXPECT_EQ(exposed.kv, next.kv);
+  EXPECT_NEAR(exposed.ma / next.ma, 1.0, 1e-3);
+}
+
+TEST(FluoroscopySight, OfAnEnhancedPatientWhoLiesStillIsWhatItAlwaysWas) {
+  const cases::Case scene = enhanced_ball();
+  const auto state = pulse(scene, {0, -40, 0}, kAcross);
+  FluoroscopySight used(scene), fresh(scene);
+  const GreyPicture still = fresh.picture(state, 7);
+  const auto exposed = fresh.expose(state);
+  EXPECT_NE(used.picture(state, 7, breathed_in(scene)).grey, still.grey);
+  EXPECT_NE(used.expose(state, breathed_in(scene)).report, exposed.report);
+  EXPECT_EQ(used.picture(state, 7).grey, still.grey);
+  EXPECT_EQ(used.expose(state).report, exposed.report);
+  EXPECT_EQ(used.expose(state, breathed_in(scene)).report,
+            FluoroscopySight(scene).expose(state, breathed_in(scene)).report);
 }
 
 TEST(FluoroscopySight, AutomaticExposureSettlesThroughStep) {

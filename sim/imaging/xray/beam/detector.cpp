@@ -22,10 +22,15 @@ constexpr double kCalibrationWaterMm = 200.0;
 constexpr float kWaterStepMm = 5.0F, kMineralStepMm = 1.0F;
 constexpr int kWaterPoints = 121, kMineralPoints = 201;
 constexpr std::size_t kMaxBins = 160;
+// What contrast takes off depends on water and mineral through the beam's hardness alone, which changes little
+// behind the first centimetres. Points, the last of which is only reached by rounding up.
+constexpr float kHardWaterStepMm = 20.0F, kHardMineralStepMm = 3.0F, kContrastStepMm = 0.25F;
+constexpr float kLeastHardWaterMm = 40.0F, kMostHardMineralMm = 60.0F;
+constexpr std::size_t kHardWaterPoints = 30, kHardMineralPoints = 22, kContrastPoints = 42;
 
 }  // namespace
 
-BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector) : kv_(spectrum.kv) {
+BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector, const BehindCt& ct) : kv_(spectrum.kv) {
   double open_signal = 0.0, open_kerma = 0.0;                            // keV/mm², keV cm²/(g mm²)
   double hard_signal = 0.0, hard_energy_signal = 0.0, hard_kerma = 0.0;  // behind the calibration's water
   for (std::size_t i = 0; i < spectrum.energy_kev.size(); ++i) {
@@ -35,7 +40,7 @@ BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector) : kv_
     if (energy_kev < kLowestSeenKev) continue;
     const double seen = 1.0 - exact_exp(-detector.csi_mm * detector.packing *
                                         attenuation_per_mm(Material::caesium_iodide, energy_kev));
-    const Attenuation attenuation = attenuation_at(energy_kev);
+    const Attenuation attenuation = attenuation_at(energy_kev, ct.kev);
     const double signal = photons * seen * energy_kev;
     bins_.push_back({signal, attenuation.water_per_mm, attenuation.mineral_per_mm, attenuation.iron_per_mm,
                      attenuation.contrast_per_mm});
@@ -80,6 +85,55 @@ BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector) : kv_
     for (std::size_t i = 0; i < kWaterPoints; ++i)
       table_[j * kWaterPoints + i] = static_cast<float>(exact_log(row[i]));
   }
+  if (ct.enhanced) tabulate_contrast();
+}
+
+void BeamSignal::tabulate_contrast() {
+  const std::size_t bins = bins_.size();
+  std::vector<double> water(kHardWaterPoints * bins), mineral(kHardMineralPoints * bins),
+      contrast(kContrastPoints * bins), weight(bins);
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    const auto fill = [&](std::vector<double>& through, std::size_t points, double per_mm, float from_mm,
+                          float step_mm) {
+      for (std::size_t i = 0; i < points; ++i)
+        through[i * bins + bin] = exact_exp(
+            -per_mm * (static_cast<double>(from_mm) + static_cast<double>(step_mm) * static_cast<double>(i)));
+    };
+    fill(water, kHardWaterPoints, bins_[bin].water_per_mm, kLeastHardWaterMm, kHardWaterStepMm);
+    fill(mineral, kHardMineralPoints, bins_[bin].mineral_per_mm, 0.0F, kHardMineralStepMm);
+    fill(contrast, kContrastPoints, bins_[bin].contrast_per_mm, 0.0F, kContrastStepMm);
+  }
+  constexpr std::size_t kPlane = kHardMineralPoints * kHardWaterPoints;
+  std::vector<double> without(kPlane);
+  contrast_table_.resize(kContrastPoints * kPlane);
+  for (std::size_t k = 0; k < kContrastPoints; ++k)
+    for (std::size_t j = 0; j < kHardMineralPoints; ++j) {
+      for (std::size_t bin = 0; bin < bins; ++bin)
+        weight[bin] = bins_[bin].signal * mineral[j * bins + bin] * contrast[k * bins + bin];
+      for (std::size_t i = 0; i < kHardWaterPoints; ++i) {
+        double sum = 0.0;
+        for (std::size_t bin = 0; bin < bins; ++bin) sum += weight[bin] * water[i * bins + bin];
+        const std::size_t at = j * kHardWaterPoints + i;
+        if (k == 0) without[at] = exact_log(sum);
+        contrast_table_[k * kPlane + at] = static_cast<float>(exact_log(sum) - without[at]);
+      }
+    }
+}
+
+float BeamSignal::by_contrast_table(float water_mm, float mineral_mm, float contrast_mm) const {
+  const float x = (water_mm - kLeastHardWaterMm) * (1.0F / kHardWaterStepMm),
+              y = mineral_mm * (1.0F / kHardMineralStepMm), z = contrast_mm * (1.0F / kContrastStepMm);
+  const int column = static_cast<int>(x), row = static_cast<int>(y), plane = static_cast<int>(z);
+  const float u = x - static_cast<float>(column), v = y - static_cast<float>(row),
+              w = z - static_cast<float>(plane);
+  constexpr std::ptrdiff_t kRow = kHardWaterPoints, kPlane = kHardMineralPoints * kRow;
+  const float* cell = contrast_table_.data() + plane * kPlane + row * kRow + column;
+  const auto in_plane = [&](const float* at) {
+    const float upper = at[0] + u * (at[1] - at[0]), lower = at[kRow] + u * (at[kRow + 1] - at[kRow]);
+    return upper + v * (lower - upper);
+  };
+  const float near = in_plane(cell), far = in_plane(cell + kPlane);
+  return near + w * (far - near);
 }
 
 // What is weakened least is taken out of the sum, which so keeps its digits behind anything: the last bin, since
@@ -130,7 +184,10 @@ void BeamSignal::log_shares(const float* water_mm, const float* mineral_mm, cons
                 contrast = at(contrast_mm, i);
     const bool in_table =
         water < static_cast<float>(kTableWaterMm) && mineral < static_cast<float>(kTableMineralMm);
-    if (!in_table || iron > 0.0F || contrast > 0.0F) {
+    const bool by_tables =
+        !(contrast > 0.0F) || (!contrast_table_.empty() && water >= kLeastHardWaterMm &&
+                               mineral < kMostHardMineralMm && contrast < static_cast<float>(kTableContrastMm));
+    if (!in_table || iron > 0.0F || !by_tables) {
       out[i] = log_share_in_float(water, mineral, iron, contrast);
       continue;
     }
@@ -141,6 +198,7 @@ void BeamSignal::log_shares(const float* water_mm, const float* mineral_mm, cons
     const float upper = cell[0] + u * (cell[1] - cell[0]);
     const float lower = cell[kWaterPoints] + u * (cell[kWaterPoints + 1] - cell[kWaterPoints]);
     out[i] = upper + v * (lower - upper);
+    if (contrast > 0.0F) out[i] += by_contrast_table(water, mineral, contrast);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sim/imaging/xray/beam/attenuation.h"
 #include "sim/imaging/xray/beam/spectrum.h"
 
 namespace seldinger::imaging {
@@ -18,19 +19,27 @@ struct Detector {
   double electronic_quanta = 2.0;  // standard deviation
 };
 
+// What is known of the CT that a patient's lengths come of: at which energy its numbers are true (attenuation.h),
+// and whether contrast medium lies on many rays, so that a table of its own pays (some 2 ms more).
+struct BehindCt {
+  double kev = kHuEnergyKev;
+  bool enhanced = false;
+};
+
 // One spectrum seen by one detector. Signals are shares of the signal in the open beam, as logarithms, which
 // neither overflow nor underflow behind anything.
 class BeamSignal {
  public:
-  BeamSignal(const Spectrum& spectrum, const Detector& detector);
+  BeamSignal(const Spectrum& spectrum, const Detector& detector, const BehindCt& ct = {});
 
   // The sum over the spectrum. Lengths of projection.h; negative ones count as 0.
   double log_share(double water_mm, double mineral_mm, double iron_mm = 0.0, double contrast_mm = 0.0) const;
 
   // The same for `count` pixels by a table over water (to kTableWaterMm) and mineral (to kTableMineralMm), bilinear
-  // in the logarithm; beyond the table, and where there is iron or contrast (either may be null), by the sum. The
-  // worst error of the table's signal is measured in tests/sim/imaging/xray/detector_test.cpp: < 1e-3. The same
-  // bits on every machine.
+  // in the logarithm; beyond the table, and where there is iron or contrast (either may be null), by the sum;
+  // behind an enhanced CT contrast to kTableContrastMm by a second table of what it takes off, linear in all three,
+  // from 40 mm of water and to 60 mm of mineral. The worst error of the table's signal is measured in
+  // tests/sim/imaging/xray/detector_test.cpp: < 1e-3. The same bits on every machine.
   void log_shares(const float* water_mm, const float* mineral_mm, const float* iron_mm, const float* contrast_mm,
                   int count, float* out) const;
 
@@ -42,16 +51,19 @@ class BeamSignal {
   double kerma_mgy_per_mas_share() const noexcept { return kerma_per_share_; }
   double kv() const noexcept { return kv_; }
 
-  static constexpr double kTableWaterMm = 600.0, kTableMineralMm = 200.0;
+  static constexpr double kTableWaterMm = 600.0, kTableMineralMm = 200.0, kTableContrastMm = 10.0;
 
  private:
   struct Bin {
     double signal, water_per_mm, mineral_per_mm, iron_per_mm, contrast_per_mm;
   };
   float log_share_in_float(float water_mm, float mineral_mm, float iron_mm, float contrast_mm) const;
-  std::vector<Bin> bins_;             // by energy
-  std::vector<float> float_bins_[5];  // the members of bins_
-  std::vector<float> table_;          // [mineral][water] of log share
+  void tabulate_contrast();
+  float by_contrast_table(float water_mm, float mineral_mm, float contrast_mm) const;
+  std::vector<Bin> bins_;              // by energy
+  std::vector<float> float_bins_[5];   // the members of bins_
+  std::vector<float> table_;           // [mineral][water] of log share
+  std::vector<float> contrast_table_;  // [contrast][mineral][water] of what contrast adds to it; or empty
   double kv_, open_quanta_, open_kerma_mgy_, kerma_per_share_;
 };
 

@@ -75,11 +75,19 @@ RayLengths displaced_lengths_between(const volume::Volume& rest, const tissue::D
   return lengths;
 }
 
+glm::ivec3 joined_voxels(const volume::Volume& rest, const MovedVolumeGrid& grid) {
+  CHECK(grid.voxel_mm > 0.0);
+  glm::ivec3 joined(1);
+  for (int axis = 0; axis < 3; ++axis)
+    joined[axis] = std::max(1, static_cast<int>(grid.voxel_mm / rest.spacing_mm[axis] + 1e-6));
+  return joined;
+}
+
 MovedVolume::MovedVolume(const volume::Volume& rest, const MovedVolumeGrid& grid)
     : rest_(rest), grid_(grid), voxel_from_lps_(volume::voxel_from_lps(rest)) {
-  CHECK(grid.voxel_mm > 0.0 && grid.node_mm > 0.0);
+  CHECK(grid.node_mm > 0.0);
+  joined_ = joined_voxels(rest, grid);
   for (int axis = 0; axis < 3; ++axis) {
-    joined_[axis] = std::max(1, static_cast<int>(grid.voxel_mm / rest.spacing_mm[axis] + 1e-6));
     cell_[axis] = std::max(1, static_cast<int>(grid.node_mm / (rest.spacing_mm[axis] * joined_[axis])));
   }
 }

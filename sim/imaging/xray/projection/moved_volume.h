@@ -22,6 +22,9 @@ struct MovedVolumeGrid {
   double node_mm = 12.0;  // where the way back is asked for; straight between
 };
 
+// How many voxels at rest are joined to one, along each axis.
+glm::ivec3 joined_voxels(const volume::Volume& rest, const MovedVolumeGrid& grid);
+
 class MovedVolume {
  public:
   // `rest` must outlive it.
