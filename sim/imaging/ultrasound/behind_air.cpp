@@ -1,6 +1,7 @@
 #include "sim/imaging/ultrasound/behind_air.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "shaders/shared/ultrasound_line.glsl.h"
@@ -28,6 +29,24 @@ constexpr std::uint32_t kMostSamples = 32768;  // of a beam, with those beyond i
 // Neighbouring beams that differ by no more meet one surface; lung's is laid through so many beams on either side.
 constexpr int kLineBesideBeams = 4;
 constexpr double kMostStepMm = 4.0;
+
+// Mean scatter of what lies before a look, by its class.
+double source_db(std::span<const TissueClass> before, double look_mm) {
+  static const auto kPowers = [] {
+    std::array<double, volume::kTissueClasses> powers{};
+    const auto amplitudes = speckle_amplitudes();
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+      const bool is_matched = shaders::us_is_matched(acoustic_table()[i].impedance_mrayl);
+      powers[i] = is_matched ? std::pow(static_cast<double>(amplitudes[i]), 2.0) : 0.0;
+    }
+    return powers;
+  }();
+  const auto most = static_cast<std::size_t>(kHazeFromMm / look_mm);
+  double sum = 0.0;
+  for (const TissueClass one : before.last(std::min(most, before.size())))
+    sum += kPowers[static_cast<std::size_t>(one)];
+  return 10.0 * std::log10(std::max(sum / static_cast<double>(most), 1e-20));
+}
 
 // `tissue`: of the looks.
 AirMet air_on(const BeamPath& path, const TissueAt& tissue_at, const UltrasoundView& view, double look_mm,
@@ -58,6 +77,7 @@ AirMet air_on(const BeamPath& path, const TissueAt& tissue_at, const UltrasoundV
       met.depth_mm = 0.5 * (above + below);
       met.shown_mm = met.depth_mm + (view.range_error ? shift_mm : 0.0);
       met.loss_db = loss_db + db_mm * (met.depth_mm - (z_mm - 0.5 * look_mm));
+      if (shows_haze(view)) met.source_db = source_db(tissue.first(i), look_mm);
       return met;
     }
     if (shaders::us_is_matched(of.impedance_mrayl)) {
@@ -173,7 +193,7 @@ class HazePainter {
       add_weighted(one, noise[i].im.data(), count, sum.im.data());
     }
     const std::vector<float>& level = met.tissue == TissueClass::gas ? of_gas_ : of_lung_;
-    const auto down = static_cast<float>(shaders::us_amplitude(-met.loss_db) / std::sqrt(square));
+    const auto down = static_cast<float>(shaders::us_amplitude(met.source_db - met.loss_db) / std::sqrt(square));
     const auto from = static_cast<std::size_t>(std::max(0.0, std::ceil(met.shown_mm / fan_.sample_mm - 0.5)));
     for (std::size_t k = 0; k < count && from + k < envelope.size(); ++k) {
       const float re = envelope[from + k] + down * level[k] * sum.re[k], im = down * level[k] * sum.im[k];
@@ -258,7 +278,7 @@ bool has_haze(const UltrasoundView& view, const AirMet& met) noexcept {
 double haze_db(const UltrasoundView& view, const AirMet& met, double behind_mm) noexcept {
   const auto power = [](double db) { return std::pow(10.0, 0.1 * db); };
   const double ring = met.tissue == TissueClass::gas ? power(kRingDb - kRingFallDbMm * behind_mm) : 0.0;
-  return 10.0 * std::log10(power(-kHazeBelowDb - kHazeFallDbMm * behind_mm) + ring) - met.loss_db -
+  return 10.0 * std::log10(power(-kHazeBelowDb - kHazeFallDbMm * behind_mm) + ring) + met.source_db - met.loss_db -
          shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, working_mhz(view)) * behind_mm;
 }
 

@@ -18,6 +18,7 @@ struct AirMet {
   double depth_mm = kNoAirMm, shown_mm = kNoAirMm;        // where it is, and where the picture shows it
   double mrayl = 0.0;                                     // of the tissue before it
   double loss_db = 0.0;                                   // two-way, down to it
+  double source_db = 0.0;                                 // of what scatters before it, over liver
 };
 // One a beam; none at all where no beam meets any, or the view shows no artefacts. Gas only where it has a haze.
 // `motion`: of tissue that moves; else null.
@@ -30,6 +31,8 @@ constexpr double kLeastMirrorMm = 40.0;
 // Rubin, Adler, Bude et al., Radiology 181 (1991) 231). How far from liver at that depth it begins and how fast it
 // falls is a judgement: grey for 2 cm, gone after 5; and before that gas, which is no smooth mirror, rings for some
 // mm, so that its front has no sharp lower edge.
+// What scatters in the last 20 mm before it makes it: behind fluid, and right below the skin, there is hardly any.
+constexpr double kHazeFromMm = 20.0;
 constexpr double kHazeBelowDb = 8.0, kHazeFallDbMm = 0.6, kRingDb = 10.0, kRingFallDbMm = 5.0;
 // In cases of the law that clutter came with; what is told of pictures knows nothing of it.
 inline bool shows_haze(const UltrasoundView& view) {

@@ -45,6 +45,7 @@ TEST(Haze, FallsBehindGasByItsLawAndIsNotBlack) {
     // A beam that goes straight down; the border between voxels lies half a voxel before the first of gas.
     EXPECT_NEAR(middle.depth_mm, kFrontMm + 0.5, 0.6);
     EXPECT_NEAR(middle.loss_db, 0.2 * 0.5 * view.probe.frequency_mhz * middle.depth_mm, 0.2);
+    EXPECT_NEAR(middle.source_db, 0.0, 1e-6);  // liver
     const PolarPicture picture = polar_of(s, view);
     for (const double behind_mm : {1.5, 4.0, 8.0, 15.0, 25.0}) {
       const int first = view.beams / 4, last = view.beams - first;
@@ -125,6 +126,24 @@ TEST(Haze, IsNotBehindBoneNorInAirNorByEarlierLaws) {
   const PolarPicture now = polar_of(gas, view), then = polar_of(gas, before_haze(view));
   for (int b = 0; b < view.beams; ++b)
     for (int k = 0; k < sample_at(view, kFrontMm - 2.0); ++k) ASSERT_EQ(at(now, b, k), at(then, b, k));
+}
+
+// Of what scatters before gas: half of the last 20 mm, fluid.
+TEST(Haze, IsOfWhatScattersBeforeIt) {
+  const UltrasoundView view = straight_view(60.0);
+  const auto middle_of = [&](double fluid_from_mm) {
+    const Scene s = scene(
+        [&](const glm::dvec3& p) {
+          if (p.y > kFrontMm) return TissueClass::gas;
+          return p.y > fluid_from_mm ? TissueClass::fluid : TissueClass::liver;
+        },
+        {130, 140, 20}, 1.0);
+    return met_in(s, view)[64];
+  };
+  EXPECT_NEAR(middle_of(kFrontMm).source_db, 0.0, 0.1);
+  EXPECT_NEAR(middle_of(kFrontMm - 10.0).source_db, -3.0, 0.3);
+  EXPECT_NEAR(middle_of(0.0).source_db, -60.0, 1.0);
+  EXPECT_NEAR(met_in(liver_on(TissueClass::gas, 2.0), view)[64].source_db, -10.0, 1.5);  // right below the skin
 }
 
 TEST(Haze, IsTheSameForAnyNumberOfThreads) {
