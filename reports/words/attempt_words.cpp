@@ -60,8 +60,7 @@ std::string away_text(const casedb::AttemptHead& attempt) {
   constexpr Unit kUnits[] = {{1.0, 120.0, " s"}, {60.0, 7200.0, " min"}, {3600.0, 172800.0, " hours"}};
   for (const Unit& unit : kUnits)
     if (*attempt.away_s < unit.below_s)
-      return "Interrupted, and resumed after " + number_text(*attempt.away_s / unit.seconds, 0) + unit.name +
-             ".";
+      return "Interrupted, and resumed after " + number_text(*attempt.away_s / unit.seconds, 0) + unit.name + ".";
   return "Interrupted, and resumed after " + number_text(*attempt.away_s / 86400.0, 0) + " days.";
 }
 

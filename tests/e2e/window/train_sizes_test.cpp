@@ -55,8 +55,8 @@ class TrainSizesTest : public testing::TestWithParam<double> {
     const Json wanted = {size.width, size.height};
     ASSERT_TRUE(fixtures::until([&] { return now().value("window_px", Json()) == wanted; })) << now();
   }
-  // Of the attempt that ended last: a machine with other work may be too slow for scatterers, and the debrief says so
-  // in a line that takes its place.
+  // Of the attempt that ended last: a machine with other work may be too slow for scatterers, and the debrief says
+  // so in a line that takes its place.
   static bool speckle_was_simplified() {
     const std::string id = library_->ask("attempt list")["attempts"][0]["attempt_id"];
     return library_->ask("attempt show " + id)["conditions"]["speckle_fallback"];
