@@ -93,9 +93,10 @@ TEST_F(Examples, AreTypedOneAfterTheOther) {
       EXPECT_EQ(ran.err.rfind(refused->second, 0), 0U) << ran.exit_code << ran.err;
       continue;
     }
-    // There is no display here; and whether of so few attempts a surrogate is off by more than chance, chance
-    // tells.
-    const bool by_chance = line.rfind("surrogate check", 0) == 0 && ran.exit_code == 1;
+    // There is no display here; whether of so few attempts a surrogate is off by more than chance, chance tells;
+    // and how many ticks of hands are missed, whatever else the machine does.
+    const bool by_chance =
+        ran.exit_code == 1 && (line.rfind("surrogate check", 0) == 0 || line.rfind("haptics selftest", 0) == 0);
     EXPECT_EQ(ran.exit_code, line == "doctor" || by_chance ? 1 : 0) << ran.out << ran.err;
     if (line.rfind("recovery ", 0) == 0) {
       EXPECT_NE(ran.out.find("\n| Cuts between novices and experts |"), ran.out.npos) << ran.out;
