@@ -25,7 +25,10 @@ std::string listed(const std::vector<std::string>& names) {
 // What its pictures hold by that law, and at what cost where it has one (docs/benchmarks/README.md).
 const char* law_text(cases::Modality modality, cases::SightLaw law) {
   if (modality == cases::Modality::xray)
-    return law >= cases::SightLaw::scatter
+    return law >= cases::SightLaw::material
+               ? ": pictures include scatter from the patient (a narrower field is clearer), and the CT's contrast "
+                 "medium is iodine, not bone"
+           : law >= cases::SightLaw::scatter
                ? ": pictures include scatter from the patient; a narrower field is clearer"
                : ": pictures leave out scatter from the patient";
   if (modality != cases::Modality::ultrasound) return "";

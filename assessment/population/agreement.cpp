@@ -7,7 +7,7 @@
 #include <set>
 
 #include "assessment/population/streams.h"
-#include "assessment/statistics/ranks.h"
+#include "assessment/statistics/relations/correlation.h"
 #include "assessment/statistics/relations/discrimination.h"
 
 namespace seldinger::assessment::population {
@@ -174,16 +174,9 @@ std::optional<RankCorrelation> rank_correlation(std::span<const Values> rows, st
       y.push_back(*others[i][k]);
     }
   if (x.size() < kFewestCompared) return std::nullopt;
-  const auto a = statistics::midranks(x), b = statistics::midranks(y);
-  const double middle = (static_cast<double>(x.size()) + 1.0) / 2.0;
-  double xy = 0.0, xx = 0.0, yy = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    xy += (a[i] - middle) * (b[i] - middle);
-    xx += (a[i] - middle) * (a[i] - middle);
-    yy += (b[i] - middle) * (b[i] - middle);
-  }
-  if (!(xx > 0.0 && yy > 0.0)) return std::nullopt;
-  return RankCorrelation{xy / std::sqrt(xx * yy), x.size()};
+  const double rho = statistics::rank_correlation(x, y);
+  if (std::isnan(rho)) return std::nullopt;
+  return RankCorrelation{rho, x.size()};
 }
 
 // Bonett and Wright's (Psychometrika 65, 2000) of Fisher's z, back on the correlation.

@@ -15,25 +15,22 @@ SHARED_CONSTANT int kMostDisplacementSources = 16;
 SHARED_CONSTANT int kCavityHeights = 24;
 SHARED_CONSTANT int kCavityWays = 32;  // directions about the axis
 SHARED_CONSTANT int kCavityNodes = 768;
-SHARED_CONSTANT real kHalfPi = 1.5707963267948966;
 
 // One cause (std140, as everything here). Places are of tissue at rest, LPS, mm. What the rest holds is its kind's:
-//   contact: place on the skin; along: unit, inwards; size: contact's radius a, depth of bone (0: none); amount:
-//   mm,
-//            times the disk's potential
-//   tip:     place of the tissue at the tip; along: unit, hub → tip; size: the ball's radius; amount: mm it is
-//   moved shaft:   place where it enters; along: unit, inwards; size: radius within which tissue moves as one,
-//   length;
+//   contact: place on the skin; along: unit, inwards; size: contact's radius a, depth of bone (0: none);
+//            amount: mm, times the disk's potential
+//   tip:     place of the tissue at the tip; along: unit, hub → tip; size: the ball's radius;
+//            amount: mm it is moved
+//   shaft:   place where it enters; along: unit, inwards; size: radius within which tissue moves as one, length;
 //            amount: mm, of displacement_shaft's form
-//   vein:    place of one end of its axis; along: unit; size: radius, length, length of its ends; amount: share of
-//   its
-//            area that is gone
+//   vein:    place of one end of its axis; along: unit; size: radius, length, length of its ends;
+//            amount: share of its area that is gone
 //   organ:   place: its middle; along: mm it is moved; size: radius; amount: how it is turned, about an axis, rad
-//   breath:  place: x of the middle, y of the back, z of the diaphragm's dome; size: half width, depth (back to
-//   front),
-//            from dome up to where it is still, from dome down to there; amount: mm to the right, to the front,
-//            downwards, where it is most; along: where organs slide, x and y of the cavity's axis, z of its lowest
-//            height, mm from height to height; else 0
+//   breath:  place: x of the middle, y of the back, z of the diaphragm's dome;
+//            size: half width, depth (back to front), from dome up to where it is still, from dome down to there;
+//            amount: mm to the right, to the front, downwards, where it is most;
+//            along: where organs slide, x and y of the cavity's axis, z of its lowest height, mm from height to
+//            height; else 0
 struct DisplacementSource {
   vec4 place_mm;
   vec4 along;

@@ -5,7 +5,7 @@
 
 #include "assessment/population/streams.h"
 #include "assessment/statistics/groups/effect_sizes.h"
-#include "assessment/statistics/ranks.h"
+#include "assessment/statistics/relations/correlation.h"
 #include "assessment/statistics/relations/discrimination.h"
 #include "sim/base/exact_math.h"
 
@@ -50,15 +50,8 @@ double paired_correlation(const Rows& a, const Rows& b, std::size_t m) {
       x.push_back(*a[i][m]);
       y.push_back(*b[i][m]);
     }
-  const auto p = statistics::midranks(x), q = statistics::midranks(y);
-  const double middle = (static_cast<double>(x.size()) + 1.0) / 2.0;
-  double pq = 0.0, pp = 0.0, qq = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    pq += (p[i] - middle) * (q[i] - middle);
-    pp += (p[i] - middle) * (p[i] - middle);
-    qq += (q[i] - middle) * (q[i] - middle);
-  }
-  return pp > 0.0 && qq > 0.0 ? pq / std::sqrt(pp * qq) : 0.0;
+  const double rho = statistics::rank_correlation(x, y);
+  return std::isnan(rho) ? 0.0 : rho;
 }
 
 // Sums of a crowd's values, whole parts at a time.

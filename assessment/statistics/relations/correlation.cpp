@@ -118,6 +118,10 @@ double correlation_coefficient(std::span<const double> a, std::span<const double
   return std::clamp(uv / std::sqrt(uu) / std::sqrt(vv), -1.0, 1.0);
 }
 
+double rank_correlation(std::span<const double> a, std::span<const double> b) {
+  return correlation_coefficient(midranks(a), midranks(b));
+}
+
 std::optional<Interval> fisher_z_interval(double r, double standard_error) {
   if (!std::isfinite(standard_error) || !(1.0 - std::abs(r) >= kPerfect)) return std::nullopt;
   const double half = normal_quantile_of(0.975) * standard_error;

@@ -55,7 +55,7 @@ void judge_lossy(const Slices& slices, Problems& problems, Warnings& warnings) {
     warnings.push_back({"lossy", text + ": HU are close to the scanner's, not the same"});
 }
 
-// Where only some slices lack a rescale, the 1 and 0 that are taken for them are no others' than theirs.
+// Where only some slices lack a rescale, the others show that the 1 and 0 taken for them are wrong.
 void judge_rescale(const Slices& slices, Problems& problems) {
   const std::size_t lack = count_of(slices, &DicomSlice::no_rescale);
   const bool others = std::any_of(slices.begin(), slices.end(), [](const DicomSlice& slice) {

@@ -13,7 +13,7 @@
 
 #include "assessment/operators/plan.h"
 #include "assessment/score.h"
-#include "assessment/statistics/ranks.h"
+#include "assessment/statistics/relations/correlation.h"
 #include "session/attempt/simulated_attempt.h"
 #include "session/attempt/simulation.h"
 #include "sim/base/check.h"
@@ -59,8 +59,8 @@ Columns columns_of(const cases::Case& scene, const assessment::PuncturePlan& pla
   return columns;
 }
 
-// Spearman's, of the seeds at which both have a value; 0 where they are too few or all alike.
-double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+// Of the seeds at which both have a value; 0 where they are too few or all alike.
+double paired_correlation(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (!std::isnan(a[i]) && !std::isnan(b[i])) {
@@ -68,15 +68,8 @@ double rank_correlation(const std::vector<double>& a, const std::vector<double>&
       y.push_back(b[i]);
     }
   if (x.size() < kPaired / 2) return 0.0;
-  const auto u = assessment::statistics::midranks(x), v = assessment::statistics::midranks(y);
-  const double middle = (static_cast<double>(x.size()) + 1.0) / 2.0;
-  double uv = 0.0, uu = 0.0, vv = 0.0;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    uv += (u[i] - middle) * (v[i] - middle);
-    uu += (u[i] - middle) * (u[i] - middle);
-    vv += (v[i] - middle) * (v[i] - middle);
-  }
-  return uu * vv > 0.0 ? uv / std::sqrt(uu * vv) : 0.0;
+  const double rho = assessment::statistics::rank_correlation(x, y);
+  return std::isnan(rho) ? 0.0 : rho;
 }
 
 // Of 60 independent pairs a rank correlation has a standard error of 1/√59 = .13. Chance takes the largest of three
@@ -101,7 +94,7 @@ TEST(OperatorStreams, PairedSeedsOfTwoOperatorsAreUncorrelated) {
         for (const auto& [metric, values] : a->second) {
           const auto other = b->second.find(metric);
           if (other == b->second.end()) continue;
-          const double found = rank_correlation(values, other->second);
+          const double found = paired_correlation(values, other->second);
           largest = std::max(largest, std::abs(found));
           if (!of_the_raw_seed) {
             EXPECT_LT(std::abs(found), most) << a->first << ", " << b->first << ": " << metric;

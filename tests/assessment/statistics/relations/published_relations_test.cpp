@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "assessment/statistics/relations/concordance.h"
+#include "assessment/statistics/relations/correlation.h"
 #include "assessment/statistics/relations/fisher_exact.h"
 #include "assessment/statistics/relations/proportions.h"
 #include "tests/assessment/statistics/relations/tables_of.h"
@@ -77,6 +79,8 @@ TEST(Correlations, OfMotorCarsAreThoseOfR) {
   expect_near_relative(fixtures::low_of(pearson), -0.933826413, 1e-8, "low");
   expect_near_relative(fixtures::high_of(pearson), -0.744087196, 1e-8, "high");
   expect_near_relative(or_missing(answer_of("spearman", cars).estimate), -0.88642203327, kDigits, "rho");
+  expect_near_relative(rank_correlation(kMilesPerGallon, kWeight), -0.88642203327, kDigits, "rho of two samples");
+  EXPECT_TRUE(std::isnan(rank_correlation(kWeight, std::vector<double>(kWeight.size(), 1.0))));
   expect_near_relative(or_missing(answer_of("kendall", cars).estimate), -0.727832149528, kDigits, "tau");
 }
 
