@@ -42,6 +42,34 @@ bool shows_its_middle(const Section& section) {
   return spans.x >= spans.y && std::abs(left(first) - left(last)) <= kMostUneven;
 }
 
+// Where no more than a guess says where the middle is: puts it where the spine is. False where that is not proven:
+// a long column, not cut itself, that goes along lung, which no bone of a leg does.
+bool follow_spine(const OrganGrid& grid, std::vector<glm::dvec2>& middle_mm) {
+  constexpr double kLeastMm = 100.0, kAlongLungMm = 20.0, kLeastSeen = 0.5, kOffCutMm = 30.0;
+  if (middle_mm.empty()) return false;
+  const Spine spine = find_spine(grid, middle_mm);
+  const double width_mm = (grid.volume.size_voxels.x - 1) * kOrganGridMm;
+  const auto in_slice = static_cast<std::ptrdiff_t>(grid.lung.size() / middle_mm.size());
+  std::optional<double> last_mm;
+  double long_mm = 0.0, along_lung_mm = 0.0;
+  for (std::size_t k = 0; k < middle_mm.size(); ++k) {
+    if (!spine.bodies[k]) continue;
+    const double x_mm = spine.bodies[k]->centre_mm.x;
+    if (x_mm < kOffCutMm || x_mm > width_mm - kOffCutMm) return false;
+    const auto slice = grid.lung.begin() + static_cast<std::ptrdiff_t>(k) * in_slice;
+    const bool beside_lung = std::find(slice, slice + in_slice, std::uint8_t{1}) != slice + in_slice;
+    long_mm += kOrganGridMm;
+    along_lung_mm += beside_lung ? kOrganGridMm : 0.0;
+    if (!last_mm) last_mm = x_mm;  // of slices below the first
+  }
+  if (long_mm < kLeastMm || along_lung_mm < kAlongLungMm || spine.seen_share < kLeastSeen) return false;
+  for (std::size_t k = 0; k < middle_mm.size(); ++k) {
+    if (spine.bodies[k]) last_mm = spine.bodies[k]->centre_mm.x;
+    middle_mm[k].x = *last_mm;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<glm::dvec2> middle_of_back(const OrganGrid& grid) {
@@ -56,17 +84,13 @@ std::vector<glm::dvec2> middle_of_back(const OrganGrid& grid) {
     const Section section = section_of(grid, lattice, k);
     if (section.cells == 0.0) continue;
     ++of_body;
-    if (!shows_its_middle(section)) {
-      ++uneven;
-      continue;
-    }
+    uneven += shows_its_middle(section) ? 0 : 1;
     const glm::ivec2 &low = section.low, &high = section.high;
     for (int j = (low.y + high.y) / 2; j <= high.y; ++j)
       for (int i = low.x; i <= high.x; ++i)
         if (grid.bone[lattice.at({i, j, k})] != 0 && std::abs(i - section.middle) * kOrganGridMm <= kAsideMm)
           sums[static_cast<std::size_t>(k)] += glm::dvec3(i, j, 1);
   }
-  if (uneven > kMostUnevenSlices * of_body) return {};
   std::vector<std::optional<glm::dvec2>> found(sums.size());
   for (int k = 0; k < n.z; ++k) {
     glm::dvec3 sum(0.0);
@@ -81,6 +105,7 @@ std::vector<glm::dvec2> middle_of_back(const OrganGrid& grid) {
   std::vector<glm::dvec2> made;
   for (const auto& one : found)
     if (one) made.push_back(*one);
+  if (uneven > kMostUnevenSlices * of_body && !follow_spine(grid, made)) return {};
   return made;
 }
 

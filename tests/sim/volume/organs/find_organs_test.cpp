@@ -271,11 +271,13 @@ TEST(Organs, OfAPatientOfWhomASideIsCutOffAreNamedRightlyOrNotAtAll) {
       tell(of, organs, with);
       for (std::size_t organ = 1; organ < kFoundOrgans; ++organ) {
         if (!named(organs)[organ]) continue;
-        EXPECT_GE(with.right[organ], 0.975) << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
+        // Of what is called vena cava some may be the iliac vein that it comes from.
+        EXPECT_GE(with.right[organ], FoundOrgan(organ) == FoundOrgan::vena_cava ? 0.93 : 0.975)
+            << of << ": " << base::name_of(kFoundOrganNames, FoundOrgan(organ));
         sides += FoundOrgan(organ) == FoundOrgan::right_lung ? 1 : 0;
       }
     }
-  EXPECT_GE(sides, 2) << "a little may be cut off";
+  EXPECT_GE(sides, 8) << "where the spine shows where the middle is";
 }
 
 TEST(Organs, TheBladderIsTheGroinsAndNoOthers) {
