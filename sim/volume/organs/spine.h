@@ -11,8 +11,8 @@
 namespace seldinger::volume {
 
 // In grid mm, by slice: the mean of the bone in the middle of the back half of the body, and of slices around.
-// Where so much of a side is cut off that the middle of what is seen is not the patient's, it is where the spine is;
-// empty where that is not proven, or no slice has bone there: then nothing is told whose name hangs on it.
+// Where so much of a side is cut off that the middle of what is seen is not the patient's, it is where the spine
+// is; empty where that is not proven, or no slice has bone there: then nothing is told whose name hangs on it.
 std::vector<glm::dvec2> middle_of_back(const OrganGrid& grid);
 
 // Vertebral bodies of one slice and of those around: blocks of bone that are thick from
