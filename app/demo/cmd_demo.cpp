@@ -172,8 +172,9 @@ constexpr Option kDemoOptions[] = {
      "the first hour: three published drills on gel blocks, each with the replay of a simulated expert to watch, "
      "and the curriculum that leads through them; takes seconds"},
     {"--cases", nullptr,
-     "the drills, then the eight graded cases, from a --ct where it fits, else from the built-in patients; set up "
-     "in the same way"},
+     "the drills, then the eight graded cases, from a --ct where it fits, else from the built-in patients, and "
+     "three "
+     "of access to vessels of groin and neck; set up in the same way"},
     {"--programme", nullptr,
      "the drills, and a programme of sixty simulated people in three cohorts who have practised them, to fill the "
      "pages of mentors and directors; takes minutes"},

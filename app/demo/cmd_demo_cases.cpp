@@ -11,6 +11,7 @@
 #include "app/cli/command.h"
 #include "app/cli/library_place.h"
 #include "app/cli/words.h"
+#include "app/demo/demo_case_parts.h"
 #include "app/demo/demo_cases.h"
 #include "app/demo/demo_library.h"
 #include "assessment/grading/rule_json.h"
@@ -40,26 +41,6 @@ assessment::PassRule with_versions(assessment::PassRule rule) {
   for (assessment::Criterion& one : rule.criteria)
     if (const assessment::MetricInfo* info = assessment::find_metric(one.metric)) one.version = info->version;
   return rule;
-}
-
-base::Result<void> add_parts(casedb::Library& library, const DemoCase& wanted, const std::string& case_id) {
-  const auto row = casedb::find_case(library, case_id);
-  if (!row) return row.error();
-  const auto maps = casedb::load_label_maps(library, *row);
-  if (!maps) return maps.error();
-  for (DemoStructure structure : wanted.structures) {
-    structure.row.case_id = case_id;
-    for (const casedb::StoredLabels& map : *maps)
-      for (std::size_t label = 1; label < map.labels.names.size(); ++label)
-        if (!structure.label.empty() && map.labels.names[label] == structure.label) {
-          structure.row.labels_sha256 = map.sha256;
-          structure.row.label = static_cast<int>(label);
-        }
-    if (const auto added = casedb::add_structure(library, structure.row); !added) return added.error();
-  }
-  for (const cases::LesionForm& lesion : wanted.lesions)
-    if (const auto added = casedb::add_lesion(library, case_id, lesion); !added) return added.error();
-  return {};
 }
 
 // With the title: it is one case of many.
@@ -260,6 +241,7 @@ void print(const DemoCasesAnswer& answer) {
   std::printf("%s\n\n", base::kTrainingOnly);
   print(answer.drills);
   print(answer.cases);
+  print(answer.access);
   std::puts("");
   for (const DemoCurriculum& one : answer.curricula)
     std::printf("%s  curriculum of %zu: %s\n", one.curriculum_id.c_str(), one.items, one.title.c_str());
@@ -315,9 +297,12 @@ int run_demo_cases(const Arguments& arguments) {
   // What a beginner watches first shows no second try.
   if (const auto done = add(drills(), "First hour", "first_pass_success", answer.drills); !done)
     return refuse(done.error());
-  if (graded)
+  if (graded) {
     if (const auto done = add(graded_cases(sources), "Graded cases", "hit", answer.cases); !done)
       return refuse(done.error());
+    if (const auto done = add(access_cases(), "Access to vessels", "hit", answer.access); !done)
+      return refuse(done.error());
+  }
   folder.keep();
   if (arguments.has("--json"))
     std::fputs(json_of_demo_cases(answer).c_str(), stdout);

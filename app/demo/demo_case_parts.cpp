@@ -147,4 +147,24 @@ DemoCase to_be_deferred(DemoCase like) {
   return like;
 }
 
+base::Result<void> add_parts(casedb::Library& library, const DemoCase& wanted, const std::string& case_id) {
+  const auto row = casedb::find_case(library, case_id);
+  if (!row) return row.error();
+  const auto maps = casedb::load_label_maps(library, *row);
+  if (!maps) return maps.error();
+  for (DemoStructure structure : wanted.structures) {
+    structure.row.case_id = case_id;
+    for (const casedb::StoredLabels& map : *maps)
+      for (std::size_t label = 1; label < map.labels.names.size(); ++label)
+        if (!structure.label.empty() && map.labels.names[label] == structure.label) {
+          structure.row.labels_sha256 = map.sha256;
+          structure.row.label = static_cast<int>(label);
+        }
+    if (const auto added = casedb::add_structure(library, structure.row); !added) return added.error();
+  }
+  for (const cases::LesionForm& lesion : wanted.lesions)
+    if (const auto added = casedb::add_lesion(library, case_id, lesion); !added) return added.error();
+  return {};
+}
+
 }  // namespace seldinger::app

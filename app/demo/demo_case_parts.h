@@ -1,4 +1,4 @@
-// What the tables of drills and graded cases are written with.
+// What the tables of drills and cases are written with.
 #pragma once
 
 #include <initializer_list>
@@ -23,6 +23,9 @@ DemoStructure labelled(const char* label, cases::StructureRule rule);
 DemoStructure of_class(const char* name, cases::StructureRule rule, volume::TissueClass tissue);
 
 assessment::PassRule rule_of(std::initializer_list<const char*> pass, std::initializer_list<const char*> critical);
+
+// Structures and lesions of `wanted`, put into the case; labels are found by name in the maps that the case has.
+base::Result<void> add_parts(casedb::Library& library, const DemoCase& wanted, const std::string& case_id);
 
 // The graded cases without a patient: setting and rule, the same for whoever lies on the table.
 DemoCase liver_between_ribs(), kidney_cortex(), jugular_vein(), beside_a_vein(), to_be_deferred(DemoCase like);

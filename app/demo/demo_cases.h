@@ -23,6 +23,9 @@ enum class DemoSource {
   torso_opacified,
   torso_prone,
   neck,
+  neck_child,
+  groin_lean,
+  groin_obese,
   contrast_liver,
   abdomen_pelvis,
   thorax_inlet
@@ -45,6 +48,9 @@ struct DemoCase {
 // In the order of their numbers, each from 1: what comes before patients, and what then is graded; all built in.
 const std::vector<DemoCase>& drills();
 const std::vector<DemoCase>& demo_cases();
+// Beside them: access to vessels of groins and neck, so that no region and no body of the built-in patients is
+// without.
+const std::vector<DemoCase>& access_cases();
 // Of a CT of a patient: what takes the place of those with the same number where that CT is at hand.
 const std::vector<DemoCase>& demo_cases_of_ct();
 
@@ -75,7 +81,7 @@ struct DemoCurriculum {
   std::size_t items = 0;
 };
 struct DemoCasesAnswer {
-  std::vector<DemoCaseAnswer> drills, cases;
+  std::vector<DemoCaseAnswer> drills, cases, access;
   std::vector<base::Error> left_out;  // of the CTs that were given: why nothing is made of them
   std::vector<DemoCurriculum> curricula;
   std::vector<std::pair<std::string, std::string>> passwords;

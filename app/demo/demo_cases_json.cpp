@@ -27,21 +27,21 @@ Json json_of(const DemoCaseAnswer& one, const Json& number) {
 }  // namespace
 
 std::string json_of_demo_cases(const DemoCasesAnswer& answer) {
-  Json drills = Json::array(), cases = Json::array(), curricula = Json::array(), accounts = Json::array();
+  Json drills = Json::array(), cases = Json::array(), access = Json::array(), curricula = Json::array(),
+       accounts = Json::array();
   for (const DemoCaseAnswer& one : answer.drills)
     drills.push_back(json_of(one, std::string("D").append(std::to_string(one.number))));
   for (const DemoCaseAnswer& one : answer.cases) cases.push_back(json_of(one, one.number));
+  for (const DemoCaseAnswer& one : answer.access)
+    access.push_back(json_of(one, std::string("A").append(std::to_string(one.number))));
   for (const DemoCurriculum& one : answer.curricula)
     curricula.push_back({{"title", one.title}, {"curriculum_id", one.curriculum_id}, {"items", one.items}});
   Json left_out = Json::array();
   for (const base::Error& one : answer.left_out) left_out.push_back({{"code", one.code}, {"text", one.text}});
   for (const auto& [name, password] : answer.passwords)
     accounts.push_back({{"name", name}, {"password", password}});
-  return Json{{"drills", drills},
-              {"cases", cases},
-              {"curricula", curricula},
-              {"left_out", left_out},
-              {"accounts", accounts}}
+  return Json{{"drills", drills},       {"cases", cases},       {"access", access},
+              {"curricula", curricula}, {"left_out", left_out}, {"accounts", accounts}}
              .dump(2) +
          "\n";
 }

@@ -217,7 +217,7 @@ TEST_F(AuthoringCommands, WrongUseIsTwo) {
     EXPECT_EQ(call(words).exit_code, 2) << words;
 }
 
-TEST(GradedCases, AllEightAreMadeOfBuiltInPatientsPublishedAndHit) {
+TEST(GradedCases, AllAreMadeOfBuiltInPatientsPublishedAndHit) {
   const auto scratch = fixtures::fresh_folder("graded_cases");
   const std::string library = (scratch / "library").string();
   const std::string command = kProgram + " demo --cases --json --library '" + library + "'";
@@ -225,7 +225,10 @@ TEST(GradedCases, AllEightAreMadeOfBuiltInPatientsPublishedAndHit) {
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json made = Json::parse(ran.out);
   ASSERT_EQ(made.at("cases").size(), 8U);
-  for (const Json& one : made.at("cases")) {
+  ASSERT_EQ(made.at("access").size(), 3U) << "groins and the other side of the neck";
+  Json all = made.at("cases");
+  all.insert(all.end(), made.at("access").begin(), made.at("access").end());
+  for (const Json& one : all) {
     EXPECT_EQ(one.at("state"), "published") << "checked: each has a free path from the skin";
     if (one.at("decision") == "defer") continue;
     ASSERT_TRUE(one.at("hit").is_object()) << one;
@@ -244,6 +247,7 @@ TEST(GradedCases, AllEightAreMadeOfBuiltInPatientsPublishedAndHit) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   const Json second = Json::parse(again.out);
   EXPECT_EQ(second.at("cases"), made.at("cases")) << "nothing is made twice";
+  EXPECT_EQ(second.at("access"), made.at("access"));
   EXPECT_TRUE(second.at("accounts").empty());
 }
 

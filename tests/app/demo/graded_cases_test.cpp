@@ -1,6 +1,8 @@
 // The table of graded cases: eight of built-in patients, and which of them a CT may take over.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "app/demo/demo_cases.h"
 
 namespace seldinger::app {
@@ -21,6 +23,19 @@ TEST(GradedCases, AreEightEachOfABuiltInPatient) {
       critical = critical || structure.row.rule == cases::StructureRule::critical;
     EXPECT_TRUE(critical);
   }
+}
+
+// Of each body the family has, somebody is a case's; so is each region.
+TEST(AccessCases, AreOfTheBodiesAndTheRegionsThatTheGradedOnesLeaveOut) {
+  std::set<DemoSource> sources;
+  for (const DemoCase& one : access_cases()) {
+    SCOPED_TRACE(one.title);
+    EXPECT_EQ(one.title.rfind("Access " + std::to_string(one.number) + ": ", 0), 0U);
+    EXPECT_TRUE(casedb::check_setting(one.setting).has_value());
+    EXPECT_EQ(one.lesions.size(), 1U);
+    sources.insert(one.source);
+  }
+  EXPECT_EQ(sources, (std::set{DemoSource::neck_child, DemoSource::groin_lean, DemoSource::groin_obese}));
 }
 
 // Whoever lies on the table, a case asks for the same.

@@ -1,5 +1,5 @@
-// The eight regions that the thesis names (kidneys, groins, liver, neck; §4.1): each of a built-in patient, with a
-// free way to its target and something that must not be met beside it.
+// The eight regions that the thesis names (kidneys, groins, liver, neck; §4.1): a case of each by `demo --cases`,
+// of a built-in patient, with a free way to its target and something that must not be met beside it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "app/cases/import_case.h"
 #include "app/demo/demo_case_parts.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/database/library.h"
@@ -20,39 +19,24 @@ namespace {
 
 struct Target {
   const char* region;
-  volume::Region scan;
-  cases::PatientPosition position;
-  glm::dvec3 at_lps_mm;
-  double radius_mm;
-  std::vector<const char*> avoid;  // labels
+  const DemoCase* made;
+  std::vector<const char*> avoid;  // labels of the patient
 };
-
-constexpr auto kSupine = cases::PatientPosition::supine, kProne = cases::PatientPosition::prone;
 
 std::vector<Target> targets() {
   const std::vector<const char*> kidney = {"renal_sinus", "collecting_system", "colon", "lung", "pleural_recess"},
-                                 neck = {"carotid_artery", "lung", "airway", "thyroid", "nerve"},
-                                 groin = {"femoral_vein", "nerve", "small_bowel"};
+                                 neck = {"carotid_artery", "lung", "airway", "thyroid", "nerve"};
+  const auto graded = [](int number) { return &demo_cases().at(static_cast<std::size_t>(number - 1)); };
+  const auto access = [](int number) { return &access_cases().at(static_cast<std::size_t>(number - 1)); };
   return {
-      {"liver, under the ribs",
-       volume::Region::torso,
-       kSupine,
-       {-80.0, -34.0, 0.0},
-       12.5,
-       {"gallbladder", "stomach", "colon", "small_bowel", "vena_cava"}},
-      {"liver, between ribs",
-       volume::Region::torso,
-       kSupine,
-       {-102.0, -22.0, 26.0},
-       7.5,
-       {"lung", "pleural_recess", "intercostal_bundle", "colon", "gallbladder"}},
-      {"right kidney", volume::Region::torso, kProne, {-70.0, 53.0, -58.0}, 7.0, kidney},
-      {"left kidney", volume::Region::torso, kProne, {70.0, 53.0, -42.0}, 7.0, kidney},
-      {"right groin", volume::Region::groin, kSupine, {-75.0, -48.0, -240.0}, 4.0, groin},
-      {"left groin", volume::Region::groin, kSupine, {75.0, -48.0, -240.0}, 4.0, groin},
-      {"right neck", volume::Region::neck, kSupine, {-32.6, -19.7, 335.0}, 6.0, neck},
-      {"left neck", volume::Region::neck, kSupine, {32.6, -19.7, 335.0}, 5.0, neck},
-  };
+      {"liver, under the ribs", graded(1), {"gallbladder", "stomach", "colon", "small_bowel", "vena_cava"}},
+      {"liver, between ribs", graded(2), {"lung", "pleural_recess", "intercostal_bundle", "colon", "gallbladder"}},
+      {"right kidney", graded(5), kidney},
+      {"left kidney", graded(3), kidney},
+      {"right groin", access(1), {"femoral_artery", "nerve", "small_bowel"}},
+      {"left groin", access(2), {"femoral_vein", "nerve", "small_bowel"}},
+      {"right neck", graded(4), neck},
+      {"left neck", access(3), neck}};
 }
 
 double to_way_mm(const glm::dvec3& p, const glm::dvec3& from, const glm::dvec3& to) {
@@ -67,6 +51,7 @@ double nearest_mm(const casedb::NewCase& patient, const Target& target, const gl
   std::vector<bool> avoid(patient.labels->names.size());
   for (std::size_t i = 0; i < avoid.size(); ++i)
     for (const char* name : target.avoid) avoid[i] = avoid[i] || patient.labels->names[i] == name;
+  const glm::dvec3 to_lps_mm = target.made->lesions.front().center_lps_mm;
   double least_mm = 1e9;
   std::size_t at = 0;
   for (int k = 0; k < volume.size_voxels.z; ++k)
@@ -74,46 +59,31 @@ double nearest_mm(const casedb::NewCase& patient, const Target& target, const gl
       for (int i = 0; i < volume.size_voxels.x; ++i, ++at)
         if (avoid[patient.labels->label[at]])
           least_mm = std::min(least_mm, to_way_mm(glm::dvec3(volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0)),
-                                                  entry_lps_mm, target.at_lps_mm));
+                                                  entry_lps_mm, to_lps_mm));
   return least_mm;
 }
 
 TEST(Regions, AllEightAreReachedPastSomethingThatMustBeAvoided) {
   auto library = casedb::Library::open_or_create(fixtures::fresh_folder("regions"));
   ASSERT_TRUE(library);
-  std::map<std::pair<volume::Region, bool>, casedb::NewCase> patients;
+  std::map<DemoSource, casedb::NewCase> patients;
   for (const Target& target : targets()) {
     SCOPED_TRACE(target.region);
-    const bool prone = target.position == kProne;
-    const auto key = std::pair(target.scan, prone);
-    if (!patients.contains(key)) {
-      auto made = import_phantom(
-          {.region = target.scan, .posture = prone ? volume::Posture::prone : volume::Posture::supine});
-      ASSERT_TRUE(made);
-      patients.emplace(key, std::move(*made));
+    const DemoSource source = target.made->source;
+    if (!patients.contains(source)) {
+      auto made = built_in(source);
+      ASSERT_TRUE(made && *made);
+      patients.emplace(source, std::move(**made));
     }
-    casedb::NewCase& patient = patients.at(key);
+    casedb::NewCase patient = patients.at(source);
+    const auto& names = patient.labels->names;
+    for (const char* name : target.avoid)
+      EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+    static_cast<casedb::CaseSetting&>(patient) = target.made->setting;
     patient.title = target.region;
-    patient.modality = cases::Modality::ultrasound;
-    patient.position = target.position;
-    patient.instrument = access_needle(18);
-    patient.rule = rule_of({"hit >= 1"}, {"nogo_length_critical <= 0"});
     const std::string case_id = casedb::add_case(*library, patient);
-    const auto row = casedb::find_case(*library, case_id);
-    ASSERT_TRUE(row);
-    const auto maps = casedb::load_label_maps(*library, *row);
-    ASSERT_TRUE(maps && maps->size() == 1);
-    for (const char* name : target.avoid) {
-      const auto& names = maps->front().labels.names;
-      const auto found = std::find(names.begin(), names.end(), name);
-      ASSERT_NE(found, names.end()) << name;
-      casedb::StructureRow structure = labelled(name, cases::StructureRule::critical).row;
-      structure.case_id = case_id;
-      structure.labels_sha256 = maps->front().sha256;
-      structure.label = static_cast<int>(found - names.begin());
-      ASSERT_TRUE(casedb::add_structure(*library, structure));
-    }
-    ASSERT_TRUE(casedb::add_lesion(*library, case_id, sphere_form(target.at_lps_mm, target.radius_mm, 40.0)));
+    const auto parts = add_parts(*library, *target.made, case_id);
+    ASSERT_TRUE(parts) << parts.error().text;
     const auto checked = session::check_case(*library, case_id);
     ASSERT_TRUE(checked);
     int reached = 0;
