@@ -50,6 +50,9 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
       "sim/devices", "sim/engine", "assessment", "casedb", "session", "reports", "app"}},
 };
 
+// Layers whose shelves do not include one another (docs/architecture.md): what two of them need lies in the layer.
+const std::set<std::string> kApart = {"sim/imaging"};
+
 // The namespace of a layer, where it is not called as its folder.
 const std::map<std::string, std::string> kNamespace = {{"sim/case", "cases"}};
 
@@ -101,6 +104,11 @@ std::string layer_of(const std::string& path) {
   for (const auto& [layer, uses] : kMayUse)
     if ((path + "/").rfind(layer + "/", 0) == 0 && layer.size() > best.size()) best = layer;
   return best;
+}
+
+// sim/imaging/xray/beam → xray; empty: the layer itself.
+std::string shelf_of(const std::string& folder, const std::string& layer) {
+  return folder == layer ? "" : fs::path(folder.substr(layer.size() + 1)).begin()->string();
 }
 
 std::vector<std::string> sources() {
@@ -182,6 +190,11 @@ std::string fault_of(const std::string& file, const std::string& include, const 
   if (other_layer.empty() || other == folder) return {};
   if (layer != other_layer && !kMayUse.at(layer).contains(other_layer))
     return file + ": " + layer + " may not use " + other_layer + " (" + include + ")";
+  if (layer == other_layer && kApart.contains(layer)) {
+    const std::string shelf = shelf_of(folder, layer), other_shelf = shelf_of(other, layer);
+    if (shelf != other_shelf && !other_shelf.empty())
+      return file + ": " + shelf + " may not use its sibling " + other_shelf + " (" + include + ")";
+  }
   if (all.contains(folder) && all.contains(other) && !all.at(folder).uses.contains(other))
     return file + ": " + folder + "/CMakeLists.txt does not link " + target_of(other) + " (" + include + ")";
   return {};
@@ -235,6 +248,16 @@ TEST(Layers, APlantedIncludeIsFoundInEveryFolder) {
       EXPECT_NE(fault_of(folder + "/planted.h", beside, all), "") << folder << " " << beside;
     EXPECT_EQ(fault_of(folder + "/planted.h", "glm/vec3.hpp", all), "");
   }
+}
+
+TEST(Layers, ASiblingIsNotIncludedEvenIfItIsLinked) {
+  auto all = shelves();
+  all["sim/imaging/room"].uses.insert("sim/imaging/ultrasound/view");
+  EXPECT_NE(fault_of("sim/imaging/room/planted.h", "sim/imaging/ultrasound/view/view.h", all), "");
+  all["sim/imaging"].uses.insert("sim/imaging/mpr");
+  EXPECT_NE(fault_of("sim/imaging/planted.h", "sim/imaging/mpr/mpr.h", all), "");
+  EXPECT_EQ(fault_of("sim/imaging/room/planted.h", "sim/imaging/probe.h", all), "");
+  EXPECT_EQ(fault_of("sim/imaging/ultrasound/planted.h", "sim/imaging/ultrasound/view/view.h", all), "");
 }
 
 // Shaders of one folder do not include those of another; what they share is in shaders/shared.

@@ -17,7 +17,7 @@
 #include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 #include "session/case/planned_way.h"
-#include "sim/imaging/ultrasound/view/probe.h"
+#include "sim/imaging/probe.h"
 #include "sim/volume/organs/find_organs.h"
 
 namespace seldinger::app {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sim/base/check.h"
-#include "sim/imaging/ultrasound/console.h"
+#include "sim/imaging/probe.h"
 
 namespace seldinger::imaging {
 
@@ -12,13 +12,8 @@ std::vector<glm::dvec3> scan_border(const cases::Picture& picture, const cases::
   CHECK(pieces >= 1);
   const Probe* probe = picture.modality == cases::Modality::ultrasound ? probe_named(picture.probe) : nullptr;
   std::vector<glm::dvec3> border;
-  UltrasoundView view;
-  view.depth_mm = picture.depth_mm;
-  if (probe != nullptr) {
-    view.probe = *probe;
-    set_view(console, view);
-  }
-  const double depth_mm = view.depth_mm;
+  const double depth_mm =
+      probe != nullptr ? taken_depth_mm(*probe, console.depth_mm, picture.depth_mm) : picture.depth_mm;
   if (probe != nullptr && probe->radius_mm > 0.0) {
     const double half = 0.5 * probe->elements * probe->pitch_mm / probe->radius_mm;
     const auto at = [&](double angle, double depth) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sim/case/case.h"
+#include "sim/imaging/probe.h"
 #include "sim/imaging/room/room_mesh.h"
-#include "sim/imaging/ultrasound/view/probe.h"
 
 namespace seldinger::imaging {
 

@@ -22,11 +22,6 @@ constexpr std::array<ConsolePreset, 5> kPresets = {{
     {"surface", kL115v, 30.0, 12.0, 60.0, 10.0},
 }};
 
-// NaN leaves the value that was.
-double taken(double wanted, double least, double most, double was) {
-  return std::isnan(wanted) ? was : std::clamp(wanted, least, most);
-}
-
 }  // namespace
 
 std::span<const ConsolePreset> console_presets() noexcept {
@@ -45,8 +40,7 @@ double frame_rate_hz(double depth_mm, int beams) noexcept {
 
 void set_view(const cases::ConsoleSetting& asked, UltrasoundView& view) noexcept {
   const Probe& probe = view.probe;
-  if (asked.depth_mm > 0.0)
-    view.depth_mm = taken(asked.depth_mm, probe.least_depth_mm, probe.most_depth_mm, view.depth_mm);
+  view.depth_mm = taken_depth_mm(probe, asked.depth_mm, view.depth_mm);
   if (asked.frequency_mhz > 0.0)
     view.frequency_mhz = taken(asked.frequency_mhz, probe.least_mhz, probe.most_mhz, view.frequency_mhz);
   if (asked.focus_mm > 0.0)

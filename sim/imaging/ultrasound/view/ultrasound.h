@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "sim/imaging/inserted.h"
-#include "sim/imaging/ultrasound/view/probe.h"
+#include "sim/imaging/probe.h"
 #include "sim/imaging/ultrasound/view/tissue.h"
 #include "sim/tissue/displacement.h"
 #include "sim/volume/volume.h"

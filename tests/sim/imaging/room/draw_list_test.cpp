@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "sim/imaging/probe.h"
 #include "sim/imaging/room/scan_border.h"
-#include "sim/imaging/ultrasound/view/probe.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/sim/imaging/room/room_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "sim/imaging/ultrasound/view/probe.h"
+#include "sim/imaging/probe.h"
 
 #include "shaders/shared/ultrasound.glsl.h"
 

@@ -1,7 +1,10 @@
-// Probes: what the transducer is, and how wide its beam is at a depth.
+// Probes: what the transducer is, what it can be set to, and how wide its beam is at a depth. Ultrasound and the
+// room share it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace seldinger::imaging {
@@ -40,6 +43,15 @@ inline constexpr std::array<Probe, 4> kProbes = {kC52v, kL115v, kThesisLinear, k
 
 // Null when there is no probe of that name.
 const Probe* probe_named(std::string_view name) noexcept;
+
+// A setting as the machine takes it: brought to the nearest that is in range; NaN leaves what was.
+inline double taken(double wanted, double least, double most, double was) noexcept {
+  return std::isnan(wanted) ? was : std::clamp(wanted, least, most);
+}
+// The depth that a console asks of a probe; what is not above 0 asks for none.
+inline double taken_depth_mm(const Probe& probe, double asked_mm, double was_mm) noexcept {
+  return asked_mm > 0.0 ? taken(asked_mm, probe.least_depth_mm, probe.most_depth_mm, was_mm) : was_mm;
+}
 
 // Of the Gaussian amplitude exp(−x²/2σ²) of the two-way beam.
 struct BeamWidth {
