@@ -185,13 +185,6 @@ double error_of(const RankCorrelation& one) {
   return (1.0 - square) * std::sqrt((1.0 + 0.5 * square) / (static_cast<double>(one.n) - 3.0));
 }
 
-std::vector<double> values_of(std::span<const Values> rows, std::size_t m) {
-  std::vector<double> values;
-  for (const Values& row : rows)
-    if (row[m]) values.push_back(*row[m]);
-  return values;
-}
-
 std::vector<Values> whole(std::span<const SimulatedPoint> points) {
   std::vector<Values> rows;
   for (const SimulatedPoint& one : points) drop_rounding(rows.emplace_back(one.values));

@@ -131,6 +131,13 @@ void drop_rounding(Values& values) noexcept {
   }
 }
 
+std::vector<double> values_of(std::span<const Values> rows, std::size_t metric) {
+  std::vector<double> values;
+  for (const Values& row : rows)
+    if (row[metric]) values.push_back(*row[metric]);
+  return values;
+}
+
 bool add_once(const std::vector<SimulatedPoint>& more, std::vector<SimulatedPoint>& points) {
   std::map<Place, std::size_t> known;  // of one place is the same person on the same occasion
   for (std::size_t p = 0; p < points.size(); ++p) known.emplace(points[p].place, p);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ using Values = std::vector<std::optional<double>>;  // in the mark's order; noth
 // To nine digits, finer than anything measured: what lies below is rounding (100 Hz are 99.9999999998 where times
 // are sums of ticks), and is no spread. Twice is as good as once.
 void drop_rounding(Values& values) noexcept;
+
+// Of one metric, of those that have one.
+std::vector<double> values_of(std::span<const Values> rows, std::size_t metric);
 
 struct SimulatedPoint {
   Place place{};

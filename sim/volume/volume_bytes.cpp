@@ -1,7 +1,6 @@
 #include "sim/volume/volume_bytes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -9,12 +8,10 @@
 #include <string>
 
 #include "sim/base/codec.h"
-#include "sim/base/hash.h"
+#include "sim/volume/stored_header.h"
 
 namespace seldinger::volume {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);  // headers are copied as they lie
 
 constexpr std::uint32_t kVolumeMagic = 0x564c4453;  // "SDLV"
 constexpr std::uint32_t kLabelMagic = 0x4c4c4453;   // "SDLL"
@@ -40,45 +37,14 @@ struct LabelHeader {
 };
 static_assert(sizeof(LabelHeader) == 32);
 
-template <typename Header>
-std::uint64_t checksum_of(const Header& header) {
-  return base::hash_bytes(std::as_bytes(std::span(&header, 1)).first(sizeof header - sizeof header.checksum));
-}
-
-base::Error damaged_volume(const char* text) {
-  return {"damaged", text};
-}
-
-template <typename Header>
-std::vector<std::byte> joined(Header header, std::span<const std::byte> raw) {
-  header.checksum = checksum_of(header);
-  const std::vector<std::byte> packed = base::compress(raw);
-  std::vector<std::byte> out(sizeof header + packed.size());
-  std::memcpy(out.data(), &header, sizeof header);
-  std::memcpy(out.data() + sizeof header, packed.data(), packed.size());
-  return out;
-}
-
-template <typename Header>
-base::Result<Header> header_at(std::span<const std::byte> bytes) {
-  Header header;
-  const Header expected;
-  if (bytes.size() < sizeof header) return damaged_volume("the stored header is cut short");
-  std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.magic != expected.magic) return damaged_volume("the stored bytes are of another kind");
-  if (header.format != expected.format) return damaged_volume("the stored bytes have an unknown format version");
-  if (header.checksum != checksum_of(header)) return damaged_volume("the stored header's checksum does not hold");
-  return header;
-}
-
 // Exactly raw_bytes from the compressed rest, or `damaged`.
 base::Result<std::vector<std::byte>> unpacked(std::span<const std::byte> packed, std::uint64_t raw_bytes) {
   // A zstd block takes at least 3 bytes and gives at most 128 KiB (RFC 8878 §3.1.1.2): fewer bytes than that cannot
   // hold what the header claims, and nothing is allocated for them.
-  if (packed.size() < raw_bytes / (128 * 1024) * 3) return damaged_volume("the stored data are cut short");
+  if (packed.size() < raw_bytes / (128 * 1024) * 3) return damaged("the stored data are cut short");
   auto raw = base::decompress(packed, static_cast<std::size_t>(raw_bytes));
-  if (!raw) return damaged_volume("the stored data are damaged");
-  if (raw->size() != raw_bytes) return damaged_volume("the stored data do not fit the stored size");
+  if (!raw) return damaged("the stored data are damaged");
+  if (raw->size() != raw_bytes) return damaged("the stored data do not fit the stored size");
   return raw;
 }
 
@@ -144,14 +110,13 @@ base::Result<Volume> volume_from_bytes(std::span<const std::byte> bytes) {
   }
   for (int at = 0; at < 16; ++at) volume.lps_from_voxel[at / 4][at % 4] = header->lps_from_voxel[at];
   const std::uint64_t voxels = voxel_count(volume.size_voxels);
-  if (voxels == 0) return damaged_volume("the stored size is not one of a volume");
-  if (!sound_geometry(volume.spacing_mm, volume.lps_from_voxel))
-    return damaged_volume("the stored geometry is not sound");
+  if (voxels == 0) return damaged("the stored size is not one of a volume");
+  if (!sound_geometry(volume.spacing_mm, volume.lps_from_voxel)) return damaged("the stored geometry is not sound");
   const auto raw = unpacked(bytes.subspan(sizeof(VolumeHeader)), voxels * sizeof(std::int16_t));
   if (!raw) return raw.error();
   volume.hu.resize(static_cast<std::size_t>(voxels));
   std::memcpy(volume.hu.data(), raw->data(), raw->size());
-  if (!sound_hu(volume.hu)) return damaged_volume("the stored voxels lie below the HU range");
+  if (!sound_hu(volume.hu)) return damaged("the stored voxels lie below the HU range");
   return volume;
 }
 
@@ -180,7 +145,7 @@ base::Result<LabelMap> labels_from_bytes(std::span<const std::byte> bytes) {
   if (!header) return header.error();
   if (header->labels > kMaxVoxels || header->names > kMaxNames ||
       header->name_bytes > kMaxNames * (kMaxNameBytes + sizeof(std::uint32_t)))
-    return damaged_volume("the stored sizes are not those of labels");
+    return damaged("the stored sizes are not those of labels");
   const auto raw = unpacked(bytes.subspan(sizeof(LabelHeader)), header->name_bytes + header->labels);
   if (!raw) return raw.error();
 
@@ -188,20 +153,20 @@ base::Result<LabelMap> labels_from_bytes(std::span<const std::byte> bytes) {
   std::span<const std::byte> rest = std::span(*raw).first(header->name_bytes);
   for (std::uint32_t i = 0; i < header->names; ++i) {
     std::uint32_t length = 0;
-    if (rest.size() < sizeof length) return damaged_volume("the stored names do not fit their size");
+    if (rest.size() < sizeof length) return damaged("the stored names do not fit their size");
     std::memcpy(&length, rest.data(), sizeof length);
     rest = rest.subspan(sizeof length);
-    if (length > rest.size()) return damaged_volume("the stored names do not fit their size");
+    if (length > rest.size()) return damaged("the stored names do not fit their size");
     std::string name(length, '\0');
     std::memcpy(name.data(), rest.data(), length);
     labels.names.push_back(std::move(name));
     rest = rest.subspan(length);
   }
-  if (!rest.empty()) return damaged_volume("the stored names do not fit their size");
+  if (!rest.empty()) return damaged("the stored names do not fit their size");
   labels.label.resize(static_cast<std::size_t>(header->labels));
   if (!labels.label.empty())
     std::memcpy(labels.label.data(), raw->data() + header->name_bytes, labels.label.size());
-  if (!sound_labels(labels)) return damaged_volume("a stored label has no name");
+  if (!sound_labels(labels)) return damaged("a stored label has no name");
   return labels;
 }
 

@@ -19,13 +19,6 @@ constexpr std::uint64_t kTruthStudy = 0;  // the number of the study that tells 
 
 using Rows = std::vector<Values>;
 
-std::vector<double> column(const Rows& rows, std::size_t m) {
-  std::vector<double> values;
-  for (const Values& row : rows)
-    if (row[m]) values.push_back(*row[m]);
-  return values;
-}
-
 // The people of a study from one number to another, at one attempt each.
 Rows drawn_people(const Surrogate& surrogate, const Group& group, std::uint64_t seed, std::uint64_t study,
                   std::size_t first, std::size_t past) {
@@ -114,11 +107,11 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
     const std::size_t past = std::min(first + kCrowd, options.truth_people + 1);
     const Rows base = drawn_people(surrogate, others(), options.seed, kTruthStudy, first, past);
     for (std::size_t m = 0; m < metrics; ++m)
-      for (const double one : column(base, m)) of_others[m].add(one);
+      for (const double one : values_of(base, m)) of_others[m].add(one);
     for (std::size_t s = 0; s < groups.size(); ++s) {
       const Rows rows = drawn_people(surrogate, groups[s], options.seed, kTruthStudy, first, past);
       for (std::size_t m = 0; m < metrics; ++m) {
-        const auto less = column(base, m), more = column(rows, m);
+        const auto less = values_of(base, m), more = values_of(rows, m);
         for (const double one : more) of_shifted[m][s].add(one);
         if (std::min(less.size(), more.size()) < kFewest) continue;
         const auto roc = statistics::roc_area(more, less);
@@ -140,7 +133,7 @@ std::vector<bool> add_truth(const Surrogate& surrogate, std::span<const Group> g
 }
 
 void add_study(const Rows& base, const Rows& rows, std::size_t m, MetricResponse& one) {
-  const auto less = column(base, m), more = column(rows, m);
+  const auto less = values_of(base, m), more = values_of(rows, m);
   if (std::min(less.size(), more.size()) < kFewest) return;
   const auto interval = statistics::roc_interval(statistics::roc_area(more, less));
   ++one.intervals;

@@ -1,13 +1,13 @@
 #include "sim/imaging/ultrasound/ultrasound_blocks.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
+#include "sim/imaging/float_pair.h"
 #include "sim/imaging/ultrasound/mirror.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/speckle/pulse.h"
@@ -46,17 +46,6 @@ constexpr int kTilesAcross = 16;
 
 glm::vec4 vec4_from(const glm::dvec3& xyz, double w = 0.0) {
   return glm::vec4(glm::dvec4(xyz, w));
-}
-
-// The first 24 binary digits of a value; what is left is the rest.
-double first_digits(double value) {
-  constexpr std::uint64_t kKept = ~((std::uint64_t{1} << 29) - 1);
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & kKept);
-}
-void split(const glm::dvec3& value, glm::vec4& high, glm::vec4& rest) {
-  const glm::dvec3 kept(first_digits(value.x), first_digits(value.y), first_digits(value.z));
-  high = vec4_from(kept);
-  rest = vec4_from(value - kept);
 }
 
 }  // namespace

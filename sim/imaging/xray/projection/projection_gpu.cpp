@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +22,7 @@
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
 #include "sim/gpu/timer.h"
+#include "sim/imaging/float_pair.h"
 #include "sim/imaging/xray/projection/attenuating_box.h"
 #include "sim/imaging/xray/projection/projection.h"
 
@@ -137,19 +137,6 @@ std::unique_ptr<Layers> layers_of(const std::shared_ptr<gpu::Handles>& handles, 
   const std::vector<std::uint16_t> voxels = voxels_of(volume, box, axes);
   return std::make_unique<Layers>(handles, glm::ivec3(size.y, size.z, size.x), voxels,
                                   glm::ivec3(cells.y, cells.z, cells.x), cells_of(voxels, size, cells));
-}
-
-// The leading 24 bits by cutting off the others: what remains of a conversion to float and back, g++ 12 at -O2
-// takes for nothing.
-double leading(double value) {
-  constexpr std::uint64_t kKept = ~((std::uint64_t{1} << 29) - 1);
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & kKept);
-}
-
-void split(const glm::dvec3& value, glm::vec4& high, glm::vec4& rest) {
-  const glm::dvec3 kept(leading(value.x), leading(value.y), leading(value.z));
-  high = glm::vec4(glm::dvec4(kept, 0.0));
-  rest = glm::vec4(glm::dvec4(value - kept, 0.0));
 }
 
 // The rays of a picture in voxel faces of the box: pixel and direction are affine in column and row.
