@@ -56,11 +56,6 @@ std::string metric_label(std::string_view id) {
   return info != nullptr ? std::string(info->label) : words_from_code(id);
 }
 
-std::string metric_definition(std::string_view id) {
-  const assessment::MetricInfo* info = assessment::find_metric(std::string(id));
-  return info != nullptr ? std::string(info->definition) : "";
-}
-
 std::string metric_group(std::string_view id) {
   const assessment::MetricInfo* info = assessment::find_metric(std::string(id));
   return std::string(info != nullptr ? words_of(info->group) : kOther);

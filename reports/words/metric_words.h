@@ -11,8 +11,6 @@ namespace seldinger::reports {
 
 // The registry's label, e.g. "Distance to target centre"; an id it does not know gives its own words.
 std::string metric_label(std::string_view id);
-// The registry's definition; empty for an id it does not know.
-std::string metric_definition(std::string_view id);
 
 // The table it stands in, e.g. "Picture"; "Other" when not known.
 std::string metric_group(std::string_view id);

@@ -86,11 +86,6 @@ Effect cohen_d(std::span<const double> a, std::span<const double> b) {
   return by_noncentrality(d, d / scale, df, scale);
 }
 
-Effect d_of_t(double t, double n1, double n2) {
-  const double scale = std::sqrt(1.0 / n1 + 1.0 / n2);
-  return by_noncentrality(t * scale, t, n1 + n2 - 2.0, scale);
-}
-
 Effect hedges_g(std::span<const double> a, std::span<const double> b) {
   Effect effect = cohen_d(a, b);
   const double half = 0.5 * static_cast<double>(a.size() + b.size() - 2);

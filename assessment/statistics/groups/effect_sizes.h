@@ -23,8 +23,6 @@ Effect cohen_d(std::span<const double> a, std::span<const double> b);
 Effect hedges_g(std::span<const double> a, std::span<const double> b);
 Effect glass_delta(std::span<const double> a, std::span<const double> b);
 Effect unpooled_d(std::span<const double> a, std::span<const double> b);
-// d of a published Student's t.
-Effect d_of_t(double t, double n1, double n2);
 // P(first > second) − P(first < second): the rank-biserial correlation. The interval is Fisher's z, which is too
 // narrow where δ is large; where no pair is out of order Newcombe's, as superiority_interval() has it.
 Effect cliff_delta(std::span<const double> a, std::span<const double> b);

@@ -22,7 +22,6 @@ void LiveTrace::add(double value, double elapsed_s) noexcept {
     in_bin_s_ = std::max(0.0, in_bin_s_ - kTraceBinS);
     newest_ = (newest_ + 1) % kTraceBins;
     bins_[newest_] = {};
-    ++done_;
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace seldinger::devices {
 
@@ -24,12 +23,10 @@ class LiveTrace {
 
   // i = 0 is the bin that is being filled, kTraceBins − 1 the oldest.
   const Bin& bin(std::size_t i) const noexcept { return bins_[(newest_ + kTraceBins - i) % kTraceBins]; }
-  std::uint64_t bins_done() const noexcept { return done_; }  // ever: how far it has scrolled
 
  private:
   std::array<Bin, kTraceBins> bins_{};
   std::size_t newest_ = 0;
-  std::uint64_t done_ = 0;
   double in_bin_s_ = 0.0;
 };
 

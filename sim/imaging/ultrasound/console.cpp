@@ -77,11 +77,6 @@ void Console::set_preset(const ConsolePreset& preset) {
   set_dynamic_range_db(preset.dynamic_range_db);
 }
 
-void Console::set_probe(const Probe& probe) {
-  view_.probe = probe;
-  view_.frequency_mhz = 0.0;
-}
-
 void Console::set_depth_mm(double depth_mm) {
   view_.depth_mm = taken(depth_mm, view_.probe.least_depth_mm, view_.probe.most_depth_mm, view_.depth_mm);
   view_.focus_mm = std::min(view_.focus_mm, view_.depth_mm);

@@ -49,7 +49,6 @@ class Console {
   const UltrasoundView& view() const noexcept { return view_; }  // without a pose
   const UltrasoundKnobs& knobs() const noexcept { return knobs_; }
   void set_preset(const ConsolePreset& preset);  // and the sliders to the middle
-  void set_probe(const Probe& probe);            // depth stays
   void set_depth_mm(double depth_mm);            // a focus below the picture goes to its lower edge
   void set_frequency_mhz(double frequency_mhz);
   void set_focus_mm(double focus_mm);

@@ -1,6 +1,7 @@
 // Procedures against published tables and R 4.2.2's answers about R's own data sets.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "assessment/statistics/groups/brunner_munzel.h"
@@ -171,7 +172,15 @@ TEST(Published, EffectSizes) {
   const std::vector<double>&c = kLikert[0].values, &d = kLikert[1].values;
   expect(cliff_delta(c, d), 0.8, {0.365253311208, 0.948266003665}, "δ of Likert values");
   expect(hedges_g(c, d), 1.61777408945, {0.276950273487, 2.89855932047}, "g of Likert values");
-  expect(d_of_t(-2.487, 14, 26), -0.8244324721, {-1.494889763, -0.143942954}, "d of a published t");
+  // A published t has no values: these have it.
+  const auto evenly = [](int n, double mean) {
+    std::vector<double> values;
+    for (int i = 0; i < n; ++i) values.push_back(mean + (i - 0.5 * (n - 1)) * std::sqrt(12.0 / (n * (n + 1.0))));
+    return values;  // of variance 1
+  };
+  const double difference = -2.487 * std::sqrt(1.0 / 14.0 + 1.0 / 26.0);
+  expect(cohen_d(evenly(14, difference), evenly(26, 0.0)), -0.8244324721, {-1.494889763, -0.143942954},
+         "d of a published t");
 }
 
 TEST(Published, SeveralGroups) {

@@ -54,7 +54,7 @@ TEST(Console, TakesWhatIsInRangeAndNoNaN) {
   EXPECT_EQ(console.knobs().tgc_db[7], kMostTgcDb);
   console.set_frequency_mhz(20.0);
   EXPECT_EQ(console.view().frequency_mhz, kC52v.most_mhz);
-  console.set_probe(kL115v);
+  console.set_preset(*console_preset_named("vessel"));
   EXPECT_EQ(console.view().frequency_mhz, 0.0);  // the new probe's own
   console.set_dynamic_range_db(0.0);
   EXPECT_EQ(console.knobs().dynamic_range_db, kLeastRangeDb);
