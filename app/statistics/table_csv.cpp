@@ -11,6 +11,7 @@
 #include "app/statistics/csv_records.h"
 #include "app/statistics/look_alike.h"
 #include "casedb/database/utf8.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::app {
 namespace {
@@ -35,11 +36,8 @@ char separator_of(std::string_view text) {
 }
 
 bool is_missing(const std::string& cell) {
-  const auto is = [&cell](std::string_view word) {
-    return std::equal(cell.begin(), cell.end(), word.begin(), word.end(),
-                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
-  };
-  return cell.empty() || is("na") || is("nan");
+  const std::string small = base::lower(cell);
+  return small.empty() || small == "na" || small == "nan";
 }
 
 // The columns asked for, where they stand, and what was read of them.

@@ -6,6 +6,7 @@
 
 #include "assessment/population/streams.h"
 #include "assessment/statistics/distributions.h"
+#include "sim/base/ascii.h"
 #include "sim/base/check.h"
 #include "sim/base/hash.h"
 
@@ -40,11 +41,7 @@ std::size_t place_of(int point, std::size_t points) {
 }
 
 bool begins_with(std::string_view words, std::string_view name) {
-  const auto small = [](char letter) {
-    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  };
-  return words.size() >= name.size() &&
-         std::equal(name.begin(), name.end(), words.begin(), [&](char a, char b) { return small(a) == small(b); });
+  return words.size() >= name.size() && base::lower(words.substr(0, name.size())) == base::lower(name);
 }
 
 std::uint64_t key_of(std::string_view words) {

@@ -28,7 +28,7 @@ struct RatedItem {
   Abilities weight;  // sums to 1
 };
 std::span<const RatedItem> rated_items();
-// Of an ability as it was on the occasion; `order`: the how-many-eth the rating is for this rater, from 0.
+// Of an ability as it was on the occasion; `order`: how many ratings the rater gave before.
 int rating_of(const Rater& rater, const Person& person, const Abilities& ability, std::size_t item,
               std::uint64_t order);
 // Of an item of any form by its words: as the rated item whose name it begins with, else of all abilities alike. Of

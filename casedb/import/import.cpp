@@ -12,6 +12,7 @@
 #include "casedb/import/files/read_file.h"
 #include "casedb/import/jail/jail.h"
 #include "casedb/import/source_frames.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -21,8 +22,7 @@ constexpr int kTissueHu = -200;            // a CT of a patient without anything
 constexpr std::size_t kStartBytes = 4096;  // enough of a file to tell what it is
 
 std::string lower_extension(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string name = base::lower(file.filename().string());
   for (const char* known : {".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".dcm"})
     if (name.ends_with(known)) return known;
   return {};

@@ -1,23 +1,18 @@
 // NRRD headers (teem.sourceforge.net/nrrd/format.html): attached or detached, raw or gzip.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <glm/geometric.hpp>
 #include <initializer_list>
 #include <map>
 #include <optional>
 
 #include "casedb/import/files/file_layout.h"
+#include "sim/base/ascii.h"
 
 namespace seldinger::casedb {
 namespace {
 
 using Fields = std::map<std::string, std::string>;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 std::string after_blanks(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
@@ -45,7 +40,7 @@ std::optional<Fields> nrrd_fields_of(const TextHeader& header) {
     if (line.empty() || line.starts_with('#') || line.find(":=") != std::string::npos) continue;
     const std::size_t colon = line.find(": ");
     if (colon == std::string::npos) return std::nullopt;
-    std::string name = lower(line.substr(0, colon));
+    std::string name = base::lower(line.substr(0, colon));
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());  // "data file" and "datafile" are one
     if (!is_known_field(name)) return std::nullopt;
     fields[name] = after_blanks(line.substr(colon + 1));
@@ -73,7 +68,7 @@ Scalar nrrd_scalar_of(const std::string& type) {
     add(Scalar::float64, {"double"});
     return scalars;
   }();
-  const auto found = kScalars.find(lower(type));
+  const auto found = kScalars.find(base::lower(type));
   return found == kScalars.end() ? Scalar::none : found->second;
 }
 
@@ -84,7 +79,7 @@ void read_nrrd_size(const Fields& fields, FileLayout& layout, Problems& problems
     problems.add("damaged", "the header's sizes are missing or do not fit its dimension");
     return;
   }
-  const auto kinds = words_of(lower(field("kinds")));
+  const auto kinds = words_of(base::lower(field("kinds")));
   const bool spatial = std::all_of(kinds.begin(), kinds.end(), [](const std::string& kind) {
     return kind == "domain" || kind == "space" || kind == "none" || kind == "???";
   });
@@ -108,7 +103,7 @@ std::vector<double> vectors_of(std::string text) {
 
 void read_geometry(const Fields& fields, FileLayout& layout, Problems& problems) {
   const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
-  const std::string space = lower(field("space"));
+  const std::string space = base::lower(field("space"));
   glm::dvec3 turn;
   if (space == "left-posterior-superior" || space == "lps")
     turn = {1.0, 1.0, 1.0};
@@ -120,7 +115,7 @@ void read_geometry(const Fields& fields, FileLayout& layout, Problems& problems)
     problems.add("no_geometry", "the header does not say how the volume lies in the patient");
     return;
   }
-  for (const std::string& unit : words_of(lower(field("spaceunits"))))
+  for (const std::string& unit : words_of(base::lower(field("spaceunits"))))
     if (unit != "\"mm\"" && unit != "mm" && unit != "\"\"")
       problems.add("no_geometry", "the voxel size is not in millimetres");
   const auto axes = vectors_of(field("spacedirections")), origin = vectors_of(field("spaceorigin"));
@@ -157,12 +152,12 @@ FileLayout nrrd_layout(const std::filesystem::path& file, Problems& problems) {
   const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
   read_nrrd_size(fields, layout, problems);
   if (problems.empty()) read_geometry(fields, layout, problems);
-  const std::string encoding = lower(field("encoding"));
+  const std::string encoding = base::lower(field("encoding"));
   if (encoding == "gzip" || encoding == "gz")
     layout.packing = Packing::gzip_or_zlib;
   else if (encoding != "raw")
     problems.add(encoding.empty() ? "damaged" : "unknown_format", "the voxels are not stored raw or with gzip");
-  layout.voxels.big_endian = lower(field("endian")) == "big";
+  layout.voxels.big_endian = base::lower(field("endian")) == "big";
   if (bytes_of(layout.voxels.scalar) > 1 && field("endian").empty() && layout.packing == Packing::none &&
       encoding == "raw")
     problems.add("damaged", "the header does not say the order of bytes");
