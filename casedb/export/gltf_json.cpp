@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sim/base/check.h"
+#include "sim/base/training_only.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -104,15 +105,16 @@ std::vector<std::byte> glb_of(const cases::Mesh& mesh) {
   const Json node = {{"mesh", 0},
                      {"name", "patient"},
                      {"matrix", Json::array({0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1})}};
-  const Json document = {{"asset", {{"version", "2.0"}, {"generator", "Seldinger; training only"}}},
-                         {"scene", 0},
-                         {"scenes", Json::array({Json{{"nodes", Json::array({0})}}})},
-                         {"nodes", Json::array({node})},
-                         {"meshes", Json::array({Json{{"name", "surface"}, {"primitives", parts}}})},
-                         {"materials", materials},
-                         {"accessors", accessors},
-                         {"bufferViews", views},
-                         {"buffers", Json::array({Json{{"byteLength", binary.size()}}})}};
+  const Json document = {
+      {"asset", {{"version", "2.0"}, {"generator", std::string("Seldinger. ") + base::kTrainingOnly}}},
+      {"scene", 0},
+      {"scenes", Json::array({Json{{"nodes", Json::array({0})}}})},
+      {"nodes", Json::array({node})},
+      {"meshes", Json::array({Json{{"name", "surface"}, {"primitives", parts}}})},
+      {"materials", materials},
+      {"accessors", accessors},
+      {"bufferViews", views},
+      {"buffers", Json::array({Json{{"byteLength", binary.size()}}})}};
   std::string text = document.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
   std::vector<std::byte> file;

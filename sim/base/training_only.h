@@ -1,4 +1,5 @@
-// The sentence that every screen, page, film and printed answer shows: one text for a safety notice.
+// The sentence that every screen, page, film, kept picture, exported mesh and printed answer shows: one text for a
+// safety notice.
 #pragma once
 
 namespace seldinger::base {

@@ -91,7 +91,7 @@ void MonitorPanel::keep() {
                     machine_state_.last_technique.ma);
       break;
   }
-  kept_ = console_picture(shown_, knobs_.screen.flip, calipers_, {text, "Simulated - for training only"});
+  kept_ = console_picture(shown_, knobs_.screen.flip, calipers_, {text, "Simulated", kTrainingOnly});
 }
 
 // Depths in centimetres and focus, beside the picture; the probe's marker, in its corner.
