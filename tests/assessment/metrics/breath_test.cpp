@@ -8,21 +8,20 @@
 
 #include "assessment/registry.h"
 #include "assessment/signals/signals.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/assessment/metrics/flat_body.h"
 
 namespace seldinger::assessment {
 namespace {
 
 using cases::EventKind;
 
-// A body that fills y ≥ 0, with an organ from 40 mm on; the target's middle is 60 mm deep.
+// The body with an organ from 40 mm on; the target's middle is 60 mm deep.
 struct Breathing {
-  cases::MeshIndex skin{fixtures::box_mesh({-200, 0, -200}, {200, 200, 200})};
   std::vector<cases::Structure> organ = {
       {"liver", volume::TissueClass::soft_tissue, cases::StructureRule::organ, cases::Sphere{{0, 90, 0}, 50.0}}};
   AttemptSetting setting() const {
     AttemptSetting made;
-    made.skin = &skin;
+    made.skin = &body();
     made.target = cases::Lesion{{0.0, 60.0, 0.0}, 6.0, 20.0};
     made.structures = organ;
     made.breathes = true;

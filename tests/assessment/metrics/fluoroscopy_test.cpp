@@ -9,16 +9,10 @@
 #include "assessment/signals/signals.h"
 #include "sim/base/rng.h"
 #include "sim/engine/step.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/assessment/metrics/flat_body.h"
 
 namespace seldinger::assessment {
 namespace {
-
-// A body that fills y ≥ 0; the needle comes from −y.
-const cases::MeshIndex& body() {
-  static const cases::MeshIndex kIndex(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}));
-  return kIndex;
-}
 
 AttemptSetting xray_setting() {
   AttemptSetting setting;

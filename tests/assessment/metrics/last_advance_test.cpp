@@ -6,17 +6,12 @@
 
 #include "assessment/registry.h"
 #include "assessment/signals/signals.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/assessment/metrics/flat_body.h"
 
 namespace seldinger::assessment {
 namespace {
 
-// A body that fills y ≥ 0; the needle goes straight down, 100 poses and pictures a second.
-const cases::MeshIndex& body() {
-  static const cases::MeshIndex kIndex(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}));
-  return kIndex;
-}
-
+// The needle goes straight down, 100 poses and pictures a second.
 cases::Recording straight(const std::function<double(double)>& depth_mm, double seconds,
                           const std::function<bool(double)>& joint) {
   cases::Recording recording;

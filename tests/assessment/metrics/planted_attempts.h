@@ -12,14 +12,13 @@
 #include "assessment/registry.h"
 #include "assessment/signals/signals.h"
 #include "sim/base/rng.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/assessment/metrics/flat_body.h"
 
 namespace seldinger::assessment {
 
 inline AttemptSetting planted_setting() {
-  static const cases::MeshIndex kSkin(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}));
   AttemptSetting made;
-  made.skin = &kSkin;
+  made.skin = &body();
   made.modality = cases::Modality::ultrasound;
   made.target = cases::Lesion{{0.0, 60.0, 0.0}, 6.0, 20.0};
   return made;

@@ -9,18 +9,12 @@
 #include "assessment/score.h"
 #include "assessment/signals/signals.h"
 #include "assessment/signals/target_view.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/assessment/metrics/flat_body.h"
 
 namespace seldinger::assessment {
 namespace {
 
 using cases::StructureRule;
-
-// A body that fills y ≥ 0; the needle comes from −y.
-const cases::MeshIndex& body() {
-  static const cases::MeshIndex kIndex(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}));
-  return kIndex;
-}
 
 // One attempt, built up by the tests.
 struct Planted {

@@ -12,15 +12,9 @@
 
 #include "assessment/registry.h"
 #include "assessment/signals/signals.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/assessment/metrics/flat_body.h"
 
 namespace seldinger::assessment {
-
-// A body that fills y ≥ 0; the needle comes from −y.
-inline const cases::MeshIndex& body() {
-  static const cases::MeshIndex kIndex(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}));
-  return kIndex;
-}
 
 inline AttemptSetting setting() {
   AttemptSetting s;

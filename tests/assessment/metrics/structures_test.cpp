@@ -5,17 +5,12 @@
 #include <functional>
 
 #include "assessment/registry.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/assessment/metrics/flat_body.h"
 
 namespace seldinger::assessment {
 namespace {
 
 using cases::StructureRule;
-
-const cases::MeshIndex& body() {
-  static const cases::MeshIndex kIndex(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}));
-  return kIndex;
-}
 
 cases::Structure ball(StructureRule rule, double depth_mm, double radius_mm, double beside_mm = 0.0) {
   cases::Structure structure;
