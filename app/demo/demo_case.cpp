@@ -35,6 +35,7 @@ base::Result<cases::Lesion> lesion_in(const cases::Case& scene, const std::optio
   const cases::Modality modality = scene.picture.modality;
   assessment::LesionRule rule = assessment::lesion_rule(modality, scene.position);
   if (organs) rule.organs = &*organs;
+  rule.classes = scene.classes;
   if (modality == cases::Modality::ultrasound) {
     rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
       return session::UltrasoundSight(scene).looks_from(plan, target);

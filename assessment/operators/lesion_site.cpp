@@ -141,6 +141,7 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
     return std::tie(a.rank, a.sd_hu) < std::tie(b.rank, b.sd_hu);
   });
   PathLimits limits = path_limits(rule.modality, rule.position);
+  limits.classes = rule.classes;
   limits.min_depth_mm = rule.min_depth_mm;
   limits.max_depth_mm = rule.max_depth_mm;
   std::size_t deep = 0;

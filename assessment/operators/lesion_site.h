@@ -23,6 +23,7 @@ struct LesionRule {
   // Of a CT without labels: a place within a solid organ that is named comes before all others, and none is taken
   // beside the lungs (organ_places.h). Nothing: nobody asked.
   const volume::Organs* organs = nullptr;
+  std::span<const volume::TissueClass> classes{};  // as PathLimits'
   // As PathLimits::looks_from, of a plan to this lesion.
   std::function<std::optional<ProbeView>(const PuncturePlan&, const cases::Lesion&)> looks_from{};
 };

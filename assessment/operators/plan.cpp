@@ -49,8 +49,9 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
         return cases::signed_distance_mm(shape, p, limits.clearance_mm) < limits.clearance_mm;
       });
       if (open) continue;
-      const auto hu = volume::sample_trilinear(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
-      if (!hu || *hu > limits.bone_hu || *hu < limits.gas_hu) return false;
+      const glm::dvec3 voxel(voxel_from_lps * glm::dvec4(p, 1.0));
+      const auto hu = volume::sample_trilinear(volume, voxel);
+      if (!hu || is_bone(limits, volume, voxel, *hu) || *hu < limits.gas_hu) return false;
     }
   return true;
 }
@@ -128,6 +129,13 @@ bool towards_table(const glm::dvec3& outward, cases::PatientPosition position) n
   return -glm::dot(outward, cases::upwards(position)) > kMaxTableward;
 }
 
+bool is_bone(const PathLimits& limits, const volume::Volume& volume, const glm::dvec3& voxel, double hu) noexcept {
+  if (limits.classes.empty()) return hu > limits.bone_hu;
+  const glm::ivec3 at(glm::clamp(glm::round(voxel), glm::dvec3(0.0), glm::dvec3(volume.size_voxels - 1)));
+  const volume::TissueClass tissue = limits.classes[static_cast<std::size_t>(volume.index(at.x, at.y, at.z))];
+  return tissue == volume::TissueClass::bone || tissue == volume::TissueClass::metal;
+}
+
 PathLimits path_limits(cases::Modality modality, cases::PatientPosition position) {
   PathLimits limits;
   limits.position = position;
@@ -143,6 +151,7 @@ PathLimits path_limits(const cases::Case& scene) {
   PathLimits limits = path_limits(scene.picture.modality, scene.position);
   limits.max_depth_mm = std::min(limits.max_depth_mm, scene.instrument.length_mm);
   limits.structures = scene.structures;
+  limits.classes = scene.classes;
   limits.approach = scene.approach;
   for (const cases::Structure& structure : scene.structures)
     if (structure.rule == cases::StructureRule::target) limits.open.push_back(structure.shape);

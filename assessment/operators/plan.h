@@ -13,6 +13,7 @@
 #include "sim/case/form/mesh_index.h"
 #include "sim/case/inputs.h"
 #include "sim/case/patient_position.h"
+#include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::assessment {
@@ -48,7 +49,7 @@ struct ProbeView {
 struct PathLimits {
   double min_depth_mm = 10.0, max_depth_mm = 130.0;
   double clearance_mm = 4.0;  // around the path
-  double bone_hu = 350.0;     // five noise SD above a contrast-filled vessel of 200 HU
+  double bone_hu = 350.0;     // where no class tells: five noise SD above a contrast-filled vessel of 200 HU
   double gas_hu = -300.0;     // the skin's threshold
   double skin_free_mm = 4.0;  // the first millimetres mix skin and air
   cases::PatientPosition position = cases::PatientPosition::supine;
@@ -63,6 +64,9 @@ struct PathLimits {
   double structure_clearance_mm = 2.0;  // room for a hand's sway (design)
   double must_cross_mm = 10.0;          // docs/clinical.md, cases 3 and 5: renal parenchyma
   double behind_target_mm = 0.0;        // how far beyond the target's centre the tip may come
+  // Of every voxel, in the volume's order: bone and metal by class. Empty: by HU, to which an artery full of
+  // contrast agent is bone, and a rib of slices of 5 mm none. Outlive the plan's making.
+  std::span<const volume::TissueClass> classes{};
   // Here HU do not count: a target, or the lumen it is in, may be full of contrast agent.
   std::vector<cases::Shape> open{};
   // How far the making of the plan is, 0 to 1: the share of the ways that were judged.
@@ -77,6 +81,9 @@ constexpr double kBullsEyeLaoDeg = 55.0, kBullsEyeCranialDeg = 35.0;
 // Whether what points so out of the body comes from where the patient lies (LPS +y when supine): no hand gets
 // there.
 bool towards_table(const glm::dvec3& outward, cases::PatientPosition position) noexcept;
+
+// Whether no needle gets through the volume there. `voxel`: of the place, within the volume; `hu`: sampled there.
+bool is_bone(const PathLimits& limits, const volume::Volume& volume, const glm::dvec3& voxel, double hu) noexcept;
 
 // The limits of a case: under xray, those of a bull's-eye view.
 PathLimits path_limits(cases::Modality modality, cases::PatientPosition position);

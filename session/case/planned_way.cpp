@@ -32,8 +32,9 @@ void add_runs(const char* what, const PlannedWay& way, const cases::Case& scene,
   };
   for (double s_mm = from_mm; s_mm <= way.length_mm; s_mm += kStepMm) {
     const glm::dvec3 p = way.entry_lps_mm + direction * s_mm;
-    const auto hu = volume::sample_trilinear(scene.volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
-    if (hu && is(*hu, p)) {
+    const glm::dvec3 voxel(voxel_from_lps * glm::dvec4(p, 1.0));
+    const auto hu = volume::sample_trilinear(scene.volume, voxel);
+    if (hu && is(*hu, voxel, p)) {
       if (begun_mm < 0.0) begun_mm = s_mm;
     } else {
       end(s_mm);
@@ -93,11 +94,14 @@ std::optional<PlannedWay> way_between(const cases::Case& scene, const glm::dvec3
                        [&](const cases::Shape& shape) { return cases::signed_distance_mm(shape, p, 1.0) < 0.0; });
   };
   add_runs(
-      "bone", way, scene, 0.0, [&](double hu, const glm::dvec3& p) { return hu > limits.bone_hu && !open(p); },
+      "bone", way, scene, 0.0,
+      [&](double hu, const glm::dvec3& voxel, const glm::dvec3& p) {
+        return assessment::is_bone(limits, scene.volume, voxel, hu) && !open(p);
+      },
       way.parts);
   add_runs(
       "gas", way, scene, limits.skin_free_mm,
-      [&](double hu, const glm::dvec3& p) { return hu < limits.gas_hu && !open(p); }, way.parts);
+      [&](double hu, const glm::dvec3&, const glm::dvec3& p) { return hu < limits.gas_hu && !open(p); }, way.parts);
   add_structures(scene, limits, way);
   std::stable_sort(way.parts.begin(), way.parts.end(),
                    [](const WayPart& a, const WayPart& b) { return a.from_mm < b.from_mm; });

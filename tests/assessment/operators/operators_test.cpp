@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "assessment/operators/lesion_site.h"
 #include "assessment/operators/plan.h"
@@ -44,6 +45,31 @@ TEST(PlanPuncture, GoesAroundBoneAndGas) {
     const auto hu = volume::sample_nearest(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
     ASSERT_TRUE(hu.has_value());
     EXPECT_EQ(*hu, 60) << "at " << s << " mm";
+  }
+}
+
+// An arterial aorta is denser than a rib of thick slices.
+TEST(PlanPuncture, WhatIsBoneIsToldByClassWhereOneIsKnown) {
+  const volume::Box plate{{-30, -85, -30}, {30, -75, 30}};
+  for (const bool bone : {false, true}) {
+    const auto volume = ball({{plate, bone ? 250.0 : 412.0, ""}});
+    std::vector<volume::TissueClass> classes(volume.hu.size(), volume::TissueClass::soft_tissue);
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      if (volume.hu[i] > 200) classes[i] = bone ? volume::TissueClass::bone : volume::TissueClass::vessel;
+    PathLimits limits;
+    const auto by_hu = plan_puncture(volume, skin(), {0, -50, 0}, limits);
+    limits.classes = classes;
+    const auto by_class = plan_puncture(volume, skin(), {0, -50, 0}, limits);
+    ASSERT_TRUE(by_hu && by_class);
+    const auto meets_plate = [&](const PuncturePlan& plan) {
+      for (double s = 0.0; s < plan.depth_mm; s += 0.5) {
+        const glm::dvec3 p = plan.entry_lps_mm + plan.direction * s;
+        if (glm::all(glm::greaterThan(p, plate.min_mm)) && glm::all(glm::lessThan(p, plate.max_mm))) return true;
+      }
+      return false;
+    };
+    EXPECT_EQ(meets_plate(*by_hu), bone) << "what this is for";
+    EXPECT_EQ(meets_plate(*by_class), !bone);
   }
 }
 
