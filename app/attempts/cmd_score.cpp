@@ -19,9 +19,7 @@
 #include "session/guidance/frame_truth.h"
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/base/vectors.h"
-#include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
-#include "sim/imaging/ultrasound/view/organs.h"
 
 namespace seldinger::app {
 namespace {
@@ -57,13 +55,12 @@ void add_frames(const Scene& scene, const XrayView& view, const volume::Volume& 
 base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_scene, const volume::Volume& volume,
                               const cases::MeshIndex& skin, const std::string& library,
                               cases::Recording& recording) {
-  auto classes = classes_of(scene, volume, library);
-  if (!classes) return classes.error();
-  std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, *classes);
-  imaging::show_organs(volume, *classes, echogenicity);
+  auto found = tissue_of(scene, volume, library);
+  if (!found) return found.error();
+  auto& [classes, echogenicity] = *found;
   imaging::UltrasoundView view = of_scene.view;
   imaging::Inserted inserted = scene.inserted;
-  imaging::settle_lesions(volume, *classes, echogenicity, inserted.lesions);
+  imaging::settle_lesions(volume, classes, echogenicity, inserted.lesions);
   if (!inserted.needle) inserted.needle = imaging::needle_pose(scene.instrument, {}, {0.0, 0.0, 1.0});
   for (const cases::PoseSample& pose : recording.poses) {
     view.origin_lps_mm = pose.probe_origin_lps_mm;
@@ -73,7 +70,7 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
     inserted.needle->tip_lps_mm = pose.tip_lps_mm;
     inserted.needle->direction = glm::normalize(pose.needle_direction);
     recording.frames.push_back(session::frame_truth(
-        pose.t_s, imaging::ultrasound_visible({&volume, *classes, echogenicity}, view, inserted,
+        pose.t_s, imaging::ultrasound_visible({&volume, classes, echogenicity}, view, inserted,
                                               session::element_depths(skin, view, session::kContactStride))));
   }
   return {};

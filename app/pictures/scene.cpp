@@ -4,8 +4,12 @@
 
 #include "app/cli/file.h"
 #include "app/cli/words.h"
+#include "casedb/cases/authoring.h"
 #include "casedb/cases/cases.h"
 #include "casedb/import/import.h"
+#include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/organs.h"
+#include "sim/imaging/ultrasound/view/portal_walls.h"
 #include "sim/volume/organs/organ_classes.h"
 #include "sim/volume/tissue/find_tissue.h"
 
@@ -40,23 +44,45 @@ base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& li
   return casedb::load_volume(*opened, *row);
 }
 
+namespace {
+
+// Classes of the volume, and the labels that tell of a portal vein.
 base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, const volume::Volume& volume,
-                                                          const std::string& library) {
+                                                          const std::string& library,
+                                                          imaging::PortalLumen& portal) {
+  volume::LabelMap labels;
   if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume)) {
-    volume::LabelMap labels;
     volume::rasterize(*analytic, labels);
-    return volume::tissue_classes(volume, &labels);
+  } else if (const auto* built_in = std::get_if<volume::PhantomOptions>(&scene.volume)) {
+    labels = volume::make_phantom(*built_in).labels;
+  } else if (std::holds_alternative<VolumeFile>(scene.volume)) {
+    return volume::classes_with_organs(volume, nullptr);
+  } else {
+    auto opened = casedb::Library::open(library);
+    if (!opened) return error_of("the library", library, opened.error());
+    const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
+    if (!row) return error_of("the scene's case", std::get<VolumeOfCase>(scene.volume).case_id, row.error());
+    const auto maps = casedb::load_label_maps(*opened, *row);
+    if (!maps) return maps.error();
+    for (const casedb::StoredLabels& map : *maps) portal.add(map.labels);
+    return casedb::load_classes(*opened, *row);
   }
-  if (const auto* built_in = std::get_if<volume::PhantomOptions>(&scene.volume)) {
-    const volume::LabelMap labels = volume::make_phantom(*built_in).labels;
-    return volume::tissue_classes(volume, &labels);
-  }
-  if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::classes_with_organs(volume, nullptr);
-  auto opened = casedb::Library::open(library);
-  if (!opened) return error_of("the library", library, opened.error());
-  const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
-  if (!row) return error_of("the scene's case", std::get<VolumeOfCase>(scene.volume).case_id, row.error());
-  return casedb::load_classes(*opened, *row);
+  portal.add(labels);
+  return volume::tissue_classes(volume, &labels);
+}
+
+}  // namespace
+
+base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library) {
+  imaging::PortalLumen portal(volume);
+  auto classes = classes_of(scene, volume, library, portal);
+  if (!classes) return classes.error();
+  portal.add(scene.structures);
+  SceneTissue tissue{std::move(*classes), {}};
+  tissue.echogenicity = imaging::echogenicity(volume, tissue.classes);
+  imaging::show_organs(volume, tissue.classes, tissue.echogenicity);
+  imaging::show_portal_walls(volume, tissue.classes, portal.voxels(), tissue.echogenicity);
+  return tissue;
 }
 
 }  // namespace seldinger::app

@@ -83,9 +83,13 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
 // well. Refused as scene_from_json, `not_found`, `too_large`.
 base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes);
 
-// What each voxel of the scene's volume is: by the labels of a case or of analytic shapes, elsewhere by HU.
-base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, const volume::Volume& volume,
-                                                          const std::string& library);
+// What each voxel of the scene's volume is: by the labels of a case or of analytic shapes, elsewhere by HU. And how
+// bright by ultrasound: as an attempt of the newest law would show it.
+struct SceneTissue {
+  std::vector<volume::TissueClass> classes;
+  std::vector<std::uint8_t> echogenicity;
+};
+base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library);
 
 // The scene's volume. A case needs `library`. Refused as import refuses; `no_library`.
 base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library);

@@ -17,9 +17,7 @@
 #include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
-#include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
-#include "sim/imaging/ultrasound/view/organs.h"
 #include "sim/imaging/xray/beam/scatter.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
@@ -284,10 +282,8 @@ base::Result<ScenePainter> ScenePainter::of(const Scene& scene, const std::strin
 
 base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
   if (tissue_) return {};
-  auto classes = classes_of(scene, volume_, library_);
-  if (!classes) return classes.error();
-  std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume_, *classes);
-  imaging::show_organs(volume_, *classes, echogenicity);
+  auto found = tissue_of(scene, volume_, library_);
+  if (!found) return found.error();
   auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
   std::optional<tissue::BreathRegion> trunk;
   std::optional<tissue::CavityWall> wall;
@@ -296,12 +292,12 @@ base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
     index = cases::MeshIndex(*skin);
     cases::Case patient;
     patient.volume = volume_;
-    patient.classes = *classes;
+    patient.classes = found->classes;
     patient.skin = std::move(*skin);
     trunk = tissue::breath_region(patient);
     wall = tissue::cavity_wall(patient);
   }
-  tissue_ = Tissue{std::move(*classes), std::move(echogenicity), std::move(index), trunk, wall};
+  tissue_ = Tissue{std::move(found->classes), std::move(found->echogenicity), std::move(index), trunk, wall};
   return {};
 }
 

@@ -14,6 +14,7 @@
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/view/organs.h"
+#include "sim/imaging/ultrasound/view/portal_walls.h"
 #include "sim/imaging/ultrasound/view/tissue.h"
 #include "sim/volume/organs/organ_classes.h"
 
@@ -40,11 +41,7 @@ class Voxels {
       for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>((*classes_)[i]);
       return cases::Shape{cases::voxels_with(volume_, bytes, static_cast<std::uint8_t>(structure.tissue))};
     }
-    if (!maps_) {
-      auto loaded = casedb::load_label_maps(library_, row_);
-      if (!loaded) return loaded.error();
-      maps_ = std::move(*loaded);
-    }
+    if (const auto loaded = load_maps(); !loaded) return loaded.error();
     for (const casedb::StoredLabels& map : *maps_) {
       if (map.sha256 != structure.labels_sha256) continue;
       if (map.labels.label.size() != volume_.hu.size()) break;
@@ -54,7 +51,21 @@ class Voxels {
     return base::Error{"damaged", "the stored labels are not the volume's"};
   }
 
+  base::Result<void> find_portal(imaging::PortalLumen& portal) {
+    if (const auto loaded = load_maps(); !loaded) return loaded.error();
+    for (const casedb::StoredLabels& map : *maps_) portal.add(map.labels);
+    return {};
+  }
+
  private:
+  base::Result<void> load_maps() {
+    if (maps_) return {};
+    auto loaded = casedb::load_label_maps(library_, row_);
+    if (!loaded) return loaded.error();
+    maps_ = std::move(*loaded);
+    return {};
+  }
+
   casedb::Library& library_;
   const casedb::CaseRow& row_;
   const volume::Volume& volume_;
@@ -87,13 +98,18 @@ std::optional<double> tube_kv_of(const std::vector<std::pair<std::string, std::s
   return std::nullopt;
 }
 
+bool shows_portal_walls(Needs needs, const cases::Case& scene) {
+  return needs == Needs::ultrasound && scene.sight_law >= cases::SightLaw::material;
+}
+
 // Of all that was painted.
-void finish(Needs needs, cases::Case& scene) {
+void finish(Needs needs, const imaging::PortalLumen& portal, cases::Case& scene) {
   if (needs == Needs::ultrasound) {
     scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
     // Cases of before decision 0061 keep the levels that their classes have.
     if (scene.sight_law != cases::SightLaw::half_slice)
       imaging::show_organs(scene.volume, scene.classes, scene.echogenicity);
+    imaging::show_portal_walls(scene.volume, scene.classes, portal.voxels(), scene.echogenicity);
     imaging::settle_lesions(scene.volume, scene.classes, scene.echogenicity, scene.lesions);
   }
   // The table is set so that the machine turns about the middle of what there is.
@@ -173,7 +189,12 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
       cases::paint_class(made.shape, made.tissue, scene.volume, scene.classes);
   }
   if (target) add_lesion(*target, scene);
-  finish(needs, scene);
+  imaging::PortalLumen portal(scene.volume);
+  if (shows_portal_walls(needs, scene)) {
+    if (const auto found = voxels.find_portal(portal); !found) return found.error();
+    portal.add(scene.structures);
+  }
+  finish(needs, portal, scene);
   return scene;
 }
 
@@ -194,7 +215,9 @@ cases::Case build_case(const casedb::NewCase& made, const cases::Picture& pictur
   take_setting(made, scene);
   scene.ct_tube_kv = tube_kv_of(made.attributes);
   if (needs != Needs::metrics) scene.classes = std::move(classes);
-  finish(needs, scene);
+  imaging::PortalLumen portal(scene.volume);
+  if (shows_portal_walls(needs, scene) && made.labels) portal.add(*made.labels);
+  finish(needs, portal, scene);
   return scene;
 }
 

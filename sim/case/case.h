@@ -78,7 +78,7 @@ enum class SightLaw {
   echo,        // the tip by its echo alone, a target by contrast and size
   scatter,     // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
   clutter,     // with clutter in ultrasound (docs/decisions/0090)
-  material     // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098)
+  material     // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098), portal walls (0100)
 };
 inline constexpr auto kSightLawNames = base::names<SightLaw>({{SightLaw::half_slice, "half_slice"},
                                                               {SightLaw::echo, "echo"},

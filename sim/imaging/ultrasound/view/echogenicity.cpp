@@ -5,6 +5,7 @@
 
 #include "sim/base/check.h"
 #include "sim/base/rows.h"
+#include "sim/imaging/ultrasound/view/tissue.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -167,6 +168,11 @@ double offset_db(double hu, double around_hu, bool enhanced) {
 }
 
 }  // namespace
+
+std::uint8_t echo_level(double over_liver_db, TissueClass tissue) {
+  const double db = over_liver_db - acoustic_table()[static_cast<std::size_t>(tissue)].scatter_db;
+  return static_cast<std::uint8_t>(std::clamp(std::lround(db / kEchoStepDb) + long{kNoEchoOffset}, 0L, 255L));
+}
 
 const std::array<float, 256>& echo_offset_amplitudes() {
   static const auto kTable = [] {

@@ -22,6 +22,9 @@ constexpr double echo_offset_db(std::uint8_t level) noexcept {
   return kEchoStepDb * (static_cast<int>(level) - static_cast<int>(kNoEchoOffset));
 }
 
+// The byte of a voxel of this class that makes it speckle so many dB over liver.
+std::uint8_t echo_level(double over_liver_db, volume::TissueClass tissue);
+
 // 10^(offset/20) of every byte.
 const std::array<float, 256>& echo_offset_amplitudes();
 

@@ -20,19 +20,13 @@ bool is_tissue(TissueClass tissue) {
   return acoustic_table()[static_cast<std::size_t>(tissue)].soft;
 }
 
-// The offset of a voxel of this class that makes it speckle at the level.
-std::uint8_t offset_of(double level_db, TissueClass tissue) {
-  const double db = level_db - acoustic_table()[static_cast<std::size_t>(tissue)].scatter_db;
-  return static_cast<std::uint8_t>(std::clamp(std::lround(db / kEchoStepDb) + long{kNoEchoOffset}, 0L, 255L));
-}
-
 void put_in_volume(const cases::Lesion& lesion, const volume::Volume& volume, std::span<TissueClass> classes,
                    std::span<std::uint8_t> echogenicity) {
   const cases::LesionEcho& echo = *lesion.echo;
   cases::over_voxels_in(*lesion.shape, volume, echo.rim_mm, [&](std::size_t at, double depth_mm) {
     const bool rim = depth_mm < echo.rim_mm;
     classes[at] = rim ? echo.rim : echo.inside;
-    echogenicity[at] = offset_of(rim ? echo.rim_db : echo.inside_db, classes[at]);
+    echogenicity[at] = echo_level(rim ? echo.rim_db : echo.inside_db, classes[at]);
   });
 }
 

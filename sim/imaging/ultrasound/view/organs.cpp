@@ -33,6 +33,7 @@ constexpr std::array<OrganRow, kOrgans> kOrganRows{{
     {Organ::kidney_pyramid, "renal pyramids", -9.0, "darker than the cortex (recalled); tuned"},
     {Organ::kidney_sinus, "renal sinus", 6.0, "the brightest of the kidney (recalled); tuned"},
     {Organ::bowel_wall, "bowel wall", -6.0, "its muscle, dark (recalled); tuned"},
+    {Organ::portal_wall, "portal vein's wall", 7.0, "bright about a black lumen (recalled); tuned"},
 }};
 
 constexpr float kFar = 1e6F;
@@ -242,15 +243,13 @@ class SliceOfOrgans {
   std::vector<std::uint8_t> sinus_;
 };
 
-std::uint8_t level_of(double over_liver_db, TissueClass tissue) {
-  const double db = over_liver_db - acoustic_table()[static_cast<std::size_t>(tissue)].scatter_db;
-  return static_cast<std::uint8_t>(std::clamp(std::lround(db / kEchoStepDb) + long{kNoEchoOffset}, 0L, 255L));
-}
-
 }  // namespace
 
 std::span<const OrganRow, kOrgans> organ_rows() noexcept {
   return kOrganRows;
+}
+const OrganRow& organ_row(Organ organ) noexcept {
+  return kOrganRows[static_cast<std::size_t>(organ)];
 }
 
 std::vector<Organ> organs_of(const volume::Volume& volume, std::span<const TissueClass> classes, int threads) {
@@ -275,7 +274,7 @@ void show_organs(const volume::Volume& volume, std::span<const TissueClass> clas
         const std::size_t first = static_cast<std::size_t>(k) * slice.size();
         for (std::size_t i = 0; i < organs.size(); ++i)
           if (organs[i] != Organ::none)
-            levels[first + i] = level_of(slice.level_db(i, k, organs[i]), classes[first + i]);
+            levels[first + i] = echo_level(slice.level_db(i, k, organs[i]), classes[first + i]);
       });
 }
 

@@ -25,8 +25,9 @@ enum class Organ : std::uint8_t {
   kidney_pyramid,
   kidney_sinus,
   bowel_wall,
+  portal_wall,  // by name alone (portal_walls.h)
 };
-constexpr std::size_t kOrgans = 12;
+constexpr std::size_t kOrgans = 13;
 
 struct OrganRow {
   Organ organ;
@@ -35,6 +36,7 @@ struct OrganRow {
   const char* source;  // measured, recalled or tuned, and from where
 };
 std::span<const OrganRow, kOrgans> organ_rows() noexcept;
+const OrganRow& organ_row(Organ organ) noexcept;
 
 // Of every voxel. Layers of the wall are found slice by slice from the air outside inward: fat before anything else
 // is the skin's, what comes next is fascia and muscle (soft tissue for kWallMuscleMm, where no label tells).
