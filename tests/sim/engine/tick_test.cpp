@@ -17,19 +17,17 @@
 #include "sim/engine/step.h"
 #include "sim/engine/tick_state_fields.h"
 #include "tests/fixtures/allocations.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::engine {
 namespace {
 
 enum class Tissue { still, moving };
 
-// A ball of fat around soft tissue around kidney, with bone on its left side.
+// A ball of fat around soft tissue (by its HU the softest) around kidney, with bone on its left side.
 cases::Case ball(cases::Modality modality, Tissue tissue) {
-  cases::Case scene;
-  scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 5);
-  scene.skin_index = cases::MeshIndex(scene.skin);
-  scene.volume = volume::make_volume({70, 70, 70}, glm::dvec3(3.0), glm::dmat3(1.0), glm::dvec3(-103.5));
+  cases::Case scene =
+      fixtures::ball_case({.voxels = 70, .voxel_mm = 3.0, .radius_mm = 100.0, .hu = -1000.0, .skin_levels = 5});
   for (int k = 0; k < 70; ++k)
     for (int j = 0; j < 70; ++j)
       for (int i = 0; i < 70; ++i) {

@@ -3,7 +3,7 @@
 
 #include "sim/case/case.h"
 #include "sim/case/state.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::imaging {
 
@@ -11,11 +11,7 @@ constexpr double kBallMm = 120.0;
 
 // The middle of the ball is the origin; supine, so that up is −y. Its ends are not cut.
 inline cases::Case ball_case(cases::Modality modality = cases::Modality::ultrasound) {
-  cases::Case scene;
-  scene.volume = volume::make_volume({8, 8, 8}, glm::dvec3(32.0), glm::dmat3(1.0), glm::dvec3(-112.0));
-  scene.skin = fixtures::sphere_mesh({0.0, 0.0, 0.0}, kBallMm, 5);
-  scene.skin.cut.assign(scene.skin.triangles.size(), 0);
-  scene.skin_index = cases::MeshIndex(scene.skin);
+  cases::Case scene = fixtures::ball_case({.voxels = 8, .voxel_mm = 32.0, .radius_mm = kBallMm, .skin_levels = 5});
   scene.picture.modality = modality;
   scene.picture.probe = "L11-5v";
   scene.planned_entry_lps_mm = glm::dvec3(0.0, -kBallMm, 0.0);
