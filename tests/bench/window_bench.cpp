@@ -90,6 +90,33 @@ void drag_about(fixtures::Trainee& trainee, double for_s) {
   EXPECT_EQ(std::system((display + " xdotool " + words + " mouseup 1").c_str()), 0);  // NOLINT
 }
 
+// What the servo kept while the window drew.
+void add_servo(const Json& servo, Table& table) {
+  const auto us = [&](const char* of, const char* what) { return servo[of][what].get<double>(); };
+  const std::string scheduler = servo["scheduler"];
+  table.row("servo: compute of a tick at 99.9 %", "us", {us("compute", "p99_9_us")}, "1000",
+            "half of them " + whole(us("compute", "p50_us")) + "; most " + whole(us("compute", "max_us")) + "; " +
+                scheduler);
+  table.row("servo: late at 99.9 %", "us", {us("latency", "p99_9_us")}, "",
+            "half of them " + whole(us("latency", "p50_us")) + "; most " + whole(us("latency", "max_us")));
+  table.row("servo: ticks missed", "per 1000", {1e3 * servo["missed_share"].get<double>()}, "",
+            "of " + std::to_string(servo["ticks"].get<long long>()) + " done");
+}
+
+// Of each attempt of a person.
+void add_servos(const std::string& library, const std::filesystem::path& scratch, Table& table) {
+  const auto ask = [&](const std::string& words) {
+    const auto ran = fixtures::run(program + " " + words + " --json --library " + library, scratch);
+    return Json::parse(ran.out, nullptr, false);
+  };
+  const Json listed = ask("attempt list");
+  for (const Json& attempt : listed["attempts"]) {
+    if (attempt["synthetic"].get<bool>()) continue;
+    const Json shown = ask("attempt show " + attempt["attempt_id"].get<std::string>());
+    add_servo(shown["servo"], table);
+  }
+}
+
 TEST(Window, Bench) {
   const auto scratch = fixtures::fresh_folder("window_bench");
   const std::string library = (scratch / "library").string();
@@ -160,25 +187,7 @@ TEST(Window, Bench) {
               "most " + std::to_string(static_cast<int>(most_mb)) + "; before the attempt " +
                   std::to_string(static_cast<int>(resident_ready_mb)));
   }
-  const auto ask = [&](const std::string& words) {
-    const auto ran = fixtures::run(program + " " + words + " --json --library " + library, scratch);
-    return Json::parse(ran.out, nullptr, false);
-  };
-  const Json listed = ask("attempt list");
-  for (const Json& attempt : listed["attempts"]) {
-    if (attempt["synthetic"].get<bool>()) continue;
-    const Json shown = ask("attempt show " + attempt["attempt_id"].get<std::string>());
-    const Json& servo = shown["servo"];
-    const auto us = [&](const char* of, const char* what) { return servo[of][what].get<double>(); };
-    const std::string scheduler = servo["scheduler"];
-    table.row("servo: compute of a tick at 99.9 %", "us", {us("compute", "p99_9_us")}, "1000",
-              "half of them " + whole(us("compute", "p50_us")) + "; most " + whole(us("compute", "max_us")) + "; " +
-                  scheduler);
-    table.row("servo: late at 99.9 %", "us", {us("latency", "p99_9_us")}, "",
-              "half of them " + whole(us("latency", "p50_us")) + "; most " + whole(us("latency", "max_us")));
-    table.row("servo: ticks missed", "per 1000", {1e3 * servo["missed_share"].get<double>()}, "",
-              "of " + std::to_string(servo["ticks"].get<long long>()) + " done");
-  }
+  add_servos(library, scratch, table);
 }
 
 }  // namespace

@@ -46,9 +46,23 @@ struct Told {
   std::string code, out, err;
 };
 
+// What a command asks the table, and of what: {} where neither state nor owner counts.
+struct Asked {
+  const char* command;
+  std::vector<std::string> words;
+  Action action;
+  Subject subject{};
+  bool of_the_trainee = false;  // theirs: own to the trainee
+};
+
+const casedb::Relation kOwnStudy{.own_study = true};
+const casedb::Relation kOwnProgramme{.own_programme = true};  // the director's
+const casedb::Relation kNobodys{.nobodys = true};             // of simulated people
+
 class ActingTest : public testing::Test {
  protected:
   fs::path folder_ = fixtures::fresh_test_folder("acting");
+  const std::string out_ = (folder_ / "out").string();
   fs::path made_ = folder_ / "made", library_ = folder_ / "library";
   std::string draft_, in_review_, published_, attempt_, curriculum_, text_, round_, other_round_, day_;
   std::map<Role, std::string> person_;
@@ -140,144 +154,146 @@ class ActingTest : public testing::Test {
     auto library = casedb::open_library(library_);
     return casedb::list_decisions(library, case_id);
   }
-};
 
-// What a command asks the table, and of what: {} where neither state nor owner counts.
-struct Asked {
-  const char* command;
-  std::vector<std::string> words;
-  Action action;
-  Subject subject{};
-  bool of_the_trainee = false;  // theirs: own to the trainee
+  // Cases, bundles, the library and what is simulated.
+  std::vector<Asked> about_cases() const {
+    return {
+        {"import", {"nowhere.nii"}, Action::add_case},
+        {"import", {"nowhere.nii", "--face", "overrule", "--reason", "knees"}, Action::overrule_face},
+        {"case lesion",
+         {draft_, "--center-mm", "0,0,0", "--radius-mm", "1", "--hu", "1"},
+         Action::work_on_case,
+         CaseState::draft},
+        {"case lesion",
+         {published_, "--center-mm", "0,0,0", "--radius-mm", "1", "--hu", "1"},
+         Action::work_on_case,
+         CaseState::published},
+        {"case structure",
+         {draft_, "--name", "x", "--rule", "major", "--class", "liver"},
+         Action::work_on_case,
+         CaseState::draft},
+        {"case label", {draft_, "nowhere.nii"}, Action::work_on_case, CaseState::draft},
+        {"case setting", {draft_, "--gauge", "18"}, Action::work_on_case, CaseState::draft},
+        {"case confirm", {draft_, "--no-burned-in-text"}, Action::confirm_no_burned_in_text},
+        {"case review", {draft_}, Action::submit_case},
+        {"case review", {in_review_, "--approve"}, Action::approve_case},
+        {"case review", {in_review_, "--return"}, Action::return_case},
+        {"case retire", {published_}, Action::retire_case},
+        {"case version", {published_}, Action::make_case_version},
+        {"case delete", {draft_}, Action::erase_case, CaseState::draft},
+        {"case bundle", {draft_, "--out", out_}, Action::hand_out_case},
+        {"bundle export", {"--out", out_}, Action::hand_out_case},
+        {"bundle import", {"nowhere"}, Action::add_case},
+        {"bundle trust", {"remove", "nobody's"}, Action::keep_library},
+        {"backup", {out_}, Action::keep_library},
+        {"check", {"--repair"}, Action::keep_library},
+        {"simulate", {"--case", "nowhere", "--operator", "expert"}, Action::simulate_attempts},
+        {"simulate merge", {"nowhere"}, Action::simulate_attempts},
+        {"surrogate fit", {"--case", "nowhere", "--out", "s.json"}, Action::simulate_attempts},
+        {"surrogate check", {"--case", "nowhere", "--surrogate", "s.json"}, Action::simulate_attempts},
+        {"recovery", {}, Action::simulate_attempts},
+        {"recompute", {}, Action::keep_library},
+    };
+  }
+
+  // Attempts, standards, curricula, accounts and cohorts.
+  std::vector<Asked> about_people() const {
+    return {
+        {"export", {"--study", "Needles", "--out", out_}, Action::export_study, kOwnStudy},
+        {"attempt delete", {attempt_}, Action::erase_attempts, {}, true},
+        {"standard set", {draft_}, Action::set_standard},
+        {"standard propose",
+         {draft_, "--method", "borderline", "--csv", "nowhere.csv", "--value", "mm", "--x", "rating"},
+         Action::propose_cut},
+        {"standard freeze", {"nowhere"}, Action::freeze_cut},
+        {"curriculum add", {"Year 2"}, Action::make_curriculum},
+        {"curriculum item", {curriculum_, "--case", published_}, Action::make_curriculum},
+        {"curriculum publish", {curriculum_}, Action::release_curriculum},
+        {"curriculum remove", {curriculum_}, Action::remove_draft_curriculum},
+        {"user add", {"new", "--role", "trainee"}, Action::manage_accounts},
+        {"user passwd", {"trainee"}, Action::set_password, {}, true},
+        {"user invite", {"invited", "--role", "trainee"}, Action::manage_accounts},
+        {"user reset", {"trainee"}, Action::manage_accounts},
+        {"user level", {"trainee", "--level", "student"}, Action::manage_accounts},
+        {"user role", {"trainee", "--role", "mentor"}, Action::manage_accounts},
+        {"user disable", {"trainee"}, Action::manage_accounts},
+        {"user enable", {"trainee"}, Action::manage_accounts},
+        {"user unlock", {"trainee"}, Action::let_in_again},
+        {"user fact", {"trainee", "confidence", "4"}, Action::answer_consent, {}, true},
+        {"user erase", {"trainee"}, Action::erase_person},
+        // Before, a director did all of this in any programme, and so came to see anybody by name.
+        {"cohort add", {"Winter", "--programme", "Radiology"}, Action::manage_cohorts, kOwnProgramme},
+        {"cohort add", {"Winter", "--programme", "Surgery"}, Action::manage_cohorts},
+        {"cohort enrol", {"Autumn", "--user", "Autumn-learner"}, Action::manage_cohorts, kOwnProgramme},
+        {"cohort enrol", {"Autumn", "--user", "mentor", "--mentor"}, Action::manage_cohorts, kOwnProgramme},
+        {"cohort enrol", {"Autumn", "--user", "Autumn-learner", "--end"}, Action::manage_cohorts, kOwnProgramme},
+        {"cohort enrol", {"Autumn", "--user", "Spring-learner"}, Action::manage_cohorts},
+        {"cohort enrol", {"Spring", "--user", "Autumn-learner"}, Action::manage_cohorts},
+        {"cohort enrol", {"Spring", "--user", "mentor", "--mentor"}, Action::manage_cohorts},
+        {"cohort enrol", {"Nothing", "--user", "mentor"}, Action::manage_cohorts},
+        {"cohort direct", {"Radiology", "--user", "director"}, Action::appoint_director},
+        {"cohort direct", {"Surgery", "--user", "director"}, Action::appoint_director},
+    };
+  }
+
+  // Studies, reports, questionnaires, ratings, workshops and consent.
+  std::vector<Asked> about_studies() const {
+    return {
+        {"study new", {"Probes"}, Action::manage_studies},
+        {"study researcher", {"Needles", "--user", "researcher"}, Action::manage_studies},
+        {"study plan", {"Needles", "nowhere.json"}, Action::plan_study, kOwnStudy},
+        {"study show", {"Needles"}, Action::plan_study, kOwnStudy},
+        {"study freeze", {"Needles"}, Action::plan_study, kOwnStudy},
+        {"study enrol", {"Needles", "--user", "trainee"}, Action::enrol_in_study, kOwnStudy},
+        {"study visits", {"Needles"}, Action::enrol_in_study, kOwnStudy},
+        {"study look", {"Needles"}, Action::plan_study, kOwnStudy},
+        {"study deviate", {"Needles", "two came late"}, Action::plan_study, kOwnStudy},
+        {"study lock", {"Needles"}, Action::plan_study, kOwnStudy},
+        {"report", {"validity", "--study", "Needles", "--out", out_ + ".html"}, Action::plan_study, kOwnStudy},
+        {"report",
+         {"validity", "--study", "Needles", "--out", out_ + ".html", "--data", out_ + "-data"},
+         Action::export_study,
+         kOwnStudy},
+        {"report", {"learner", "--user", "trainee", "--out", out_ + ".html"}, Action::see_attempt, {}, true},
+        {"report",
+         {"learner", "--simulated", "--person", "novice-1", "--out", out_ + ".html"},
+         Action::see_attempt,
+         kNobodys},
+        {"report", {"case", "--out", out_ + ".html"}, Action::see_case, CaseState::published},
+        {"report", {"standard", "--case", draft_, "--out", out_ + ".html"}, Action::see_case, CaseState::draft},
+        {"questionnaire add", {"nowhere.json"}, Action::manage_questionnaires},
+        {"questionnaire open", {"short", "--title", "Another day"}, Action::manage_questionnaires},
+        {"questionnaire close", {round_}, Action::manage_questionnaires},
+        {"questionnaire import", {round_, "nowhere.csv", "nowhere.csv"}, Action::manage_questionnaires},
+        {"questionnaire export", {round_, "--out", out_ + ".csv"}, Action::see_responses, kOwnStudy},
+        {"questionnaire export", {other_round_, "--out", out_ + ".csv"}, Action::see_responses},
+        {"questionnaire export", {"XXXXXX", "--out", out_ + ".csv"}, Action::see_responses},
+        {"simulate answers", {round_}, Action::see_responses, kOwnStudy},
+        {"simulate answers", {other_round_}, Action::see_responses},
+        {"rating open", {"short", "--title", "Replays"}, Action::manage_questionnaires},
+        {"rating show", {round_}, Action::see_responses, kOwnStudy},
+        {"rating export", {other_round_, "--out", out_ + ".csv"}, Action::see_responses},
+        {"workshop open",
+         {"Needles", "--title", "Winter", "--station", "Talk", "--station", "Film"},
+         Action::enrol_in_study,
+         kOwnStudy},
+        {"workshop admit", {day_, "--user", "trainee"}, Action::enrol_in_study, kOwnStudy},
+        {"workshop tick", {day_, "--number", "1", "--station", "Talk"}, Action::enrol_in_study, kOwnStudy},
+        {"workshop show", {day_}, Action::enrol_in_study, kOwnStudy},
+        {"workshop close", {day_}, Action::enrol_in_study, kOwnStudy},
+        {"workshop show", {"XXXXXX"}, Action::enrol_in_study},
+        {"consent text", {"nowhere.txt"}, Action::manage_studies},
+        {"consent give", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
+        {"consent withdraw", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
+        {"audit", {}, Action::read_audit},
+    };
+  }
 };
 
 // Every command that acts; "case publish" looks at the case's checks first (tests/e2e/acting_test.cpp).
 TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
-  const std::string out = (folder_ / "out").string();
-  casedb::Relation own_study;
-  own_study.own_study = true;
-  casedb::Relation own_programme;  // the director's
-  own_programme.own_programme = true;
-  casedb::Relation nobodys;  // of simulated people
-  nobodys.nobodys = true;
-  const std::vector<Asked> all = {
-      {"import", {"nowhere.nii"}, Action::add_case},
-      {"import", {"nowhere.nii", "--face", "overrule", "--reason", "knees"}, Action::overrule_face},
-      {"case lesion",
-       {draft_, "--center-mm", "0,0,0", "--radius-mm", "1", "--hu", "1"},
-       Action::work_on_case,
-       CaseState::draft},
-      {"case lesion",
-       {published_, "--center-mm", "0,0,0", "--radius-mm", "1", "--hu", "1"},
-       Action::work_on_case,
-       CaseState::published},
-      {"case structure",
-       {draft_, "--name", "x", "--rule", "major", "--class", "liver"},
-       Action::work_on_case,
-       CaseState::draft},
-      {"case label", {draft_, "nowhere.nii"}, Action::work_on_case, CaseState::draft},
-      {"case setting", {draft_, "--gauge", "18"}, Action::work_on_case, CaseState::draft},
-      {"case confirm", {draft_, "--no-burned-in-text"}, Action::confirm_no_burned_in_text},
-      {"case review", {draft_}, Action::submit_case},
-      {"case review", {in_review_, "--approve"}, Action::approve_case},
-      {"case review", {in_review_, "--return"}, Action::return_case},
-      {"case retire", {published_}, Action::retire_case},
-      {"case version", {published_}, Action::make_case_version},
-      {"case delete", {draft_}, Action::erase_case, CaseState::draft},
-      {"case bundle", {draft_, "--out", out}, Action::hand_out_case},
-      {"bundle export", {"--out", out}, Action::hand_out_case},
-      {"bundle import", {"nowhere"}, Action::add_case},
-      {"bundle trust", {"remove", "nobody's"}, Action::keep_library},
-      {"backup", {out}, Action::keep_library},
-      {"check", {"--repair"}, Action::keep_library},
-      {"simulate", {"--case", "nowhere", "--operator", "expert"}, Action::simulate_attempts},
-      {"simulate merge", {"nowhere"}, Action::simulate_attempts},
-      {"surrogate fit", {"--case", "nowhere", "--out", "s.json"}, Action::simulate_attempts},
-      {"surrogate check", {"--case", "nowhere", "--surrogate", "s.json"}, Action::simulate_attempts},
-      {"recovery", {}, Action::simulate_attempts},
-      {"recompute", {}, Action::keep_library},
-      {"export", {"--study", "Needles", "--out", out}, Action::export_study, own_study},
-      {"attempt delete", {attempt_}, Action::erase_attempts, {}, true},
-      {"standard set", {draft_}, Action::set_standard},
-      {"standard propose",
-       {draft_, "--method", "borderline", "--csv", "nowhere.csv", "--value", "mm", "--x", "rating"},
-       Action::propose_cut},
-      {"standard freeze", {"nowhere"}, Action::freeze_cut},
-      {"curriculum add", {"Year 2"}, Action::make_curriculum},
-      {"curriculum item", {curriculum_, "--case", published_}, Action::make_curriculum},
-      {"curriculum publish", {curriculum_}, Action::release_curriculum},
-      {"curriculum remove", {curriculum_}, Action::remove_draft_curriculum},
-      {"user add", {"new", "--role", "trainee"}, Action::manage_accounts},
-      {"user passwd", {"trainee"}, Action::set_password, {}, true},
-      {"user invite", {"invited", "--role", "trainee"}, Action::manage_accounts},
-      {"user reset", {"trainee"}, Action::manage_accounts},
-      {"user level", {"trainee", "--level", "student"}, Action::manage_accounts},
-      {"user role", {"trainee", "--role", "mentor"}, Action::manage_accounts},
-      {"user disable", {"trainee"}, Action::manage_accounts},
-      {"user enable", {"trainee"}, Action::manage_accounts},
-      {"user unlock", {"trainee"}, Action::let_in_again},
-      {"user fact", {"trainee", "confidence", "4"}, Action::answer_consent, {}, true},
-      {"user erase", {"trainee"}, Action::erase_person},
-      // Before, a director did all of this in any programme, and so came to see anybody by name.
-      {"cohort add", {"Winter", "--programme", "Radiology"}, Action::manage_cohorts, own_programme},
-      {"cohort add", {"Winter", "--programme", "Surgery"}, Action::manage_cohorts},
-      {"cohort enrol", {"Autumn", "--user", "Autumn-learner"}, Action::manage_cohorts, own_programme},
-      {"cohort enrol", {"Autumn", "--user", "mentor", "--mentor"}, Action::manage_cohorts, own_programme},
-      {"cohort enrol", {"Autumn", "--user", "Autumn-learner", "--end"}, Action::manage_cohorts, own_programme},
-      {"cohort enrol", {"Autumn", "--user", "Spring-learner"}, Action::manage_cohorts},
-      {"cohort enrol", {"Spring", "--user", "Autumn-learner"}, Action::manage_cohorts},
-      {"cohort enrol", {"Spring", "--user", "mentor", "--mentor"}, Action::manage_cohorts},
-      {"cohort enrol", {"Nothing", "--user", "mentor"}, Action::manage_cohorts},
-      {"cohort direct", {"Radiology", "--user", "director"}, Action::appoint_director},
-      {"cohort direct", {"Surgery", "--user", "director"}, Action::appoint_director},
-      {"study new", {"Probes"}, Action::manage_studies},
-      {"study researcher", {"Needles", "--user", "researcher"}, Action::manage_studies},
-      {"study plan", {"Needles", "nowhere.json"}, Action::plan_study, own_study},
-      {"study show", {"Needles"}, Action::plan_study, own_study},
-      {"study freeze", {"Needles"}, Action::plan_study, own_study},
-      {"study enrol", {"Needles", "--user", "trainee"}, Action::enrol_in_study, own_study},
-      {"study visits", {"Needles"}, Action::enrol_in_study, own_study},
-      {"study look", {"Needles"}, Action::plan_study, own_study},
-      {"study deviate", {"Needles", "two came late"}, Action::plan_study, own_study},
-      {"study lock", {"Needles"}, Action::plan_study, own_study},
-      {"report", {"validity", "--study", "Needles", "--out", out + ".html"}, Action::plan_study, own_study},
-      {"report",
-       {"validity", "--study", "Needles", "--out", out + ".html", "--data", out + "-data"},
-       Action::export_study,
-       own_study},
-      {"report", {"learner", "--user", "trainee", "--out", out + ".html"}, Action::see_attempt, {}, true},
-      {"report",
-       {"learner", "--simulated", "--person", "novice-1", "--out", out + ".html"},
-       Action::see_attempt,
-       nobodys},
-      {"report", {"case", "--out", out + ".html"}, Action::see_case, CaseState::published},
-      {"report", {"standard", "--case", draft_, "--out", out + ".html"}, Action::see_case, CaseState::draft},
-      {"questionnaire add", {"nowhere.json"}, Action::manage_questionnaires},
-      {"questionnaire open", {"short", "--title", "Another day"}, Action::manage_questionnaires},
-      {"questionnaire close", {round_}, Action::manage_questionnaires},
-      {"questionnaire import", {round_, "nowhere.csv", "nowhere.csv"}, Action::manage_questionnaires},
-      {"questionnaire export", {round_, "--out", out + ".csv"}, Action::see_responses, own_study},
-      {"questionnaire export", {other_round_, "--out", out + ".csv"}, Action::see_responses},
-      {"questionnaire export", {"XXXXXX", "--out", out + ".csv"}, Action::see_responses},
-      {"simulate answers", {round_}, Action::see_responses, own_study},
-      {"simulate answers", {other_round_}, Action::see_responses},
-      {"rating open", {"short", "--title", "Replays"}, Action::manage_questionnaires},
-      {"rating show", {round_}, Action::see_responses, own_study},
-      {"rating export", {other_round_, "--out", out + ".csv"}, Action::see_responses},
-      {"workshop open",
-       {"Needles", "--title", "Winter", "--station", "Talk", "--station", "Film"},
-       Action::enrol_in_study,
-       own_study},
-      {"workshop admit", {day_, "--user", "trainee"}, Action::enrol_in_study, own_study},
-      {"workshop tick", {day_, "--number", "1", "--station", "Talk"}, Action::enrol_in_study, own_study},
-      {"workshop show", {day_}, Action::enrol_in_study, own_study},
-      {"workshop close", {day_}, Action::enrol_in_study, own_study},
-      {"workshop show", {"XXXXXX"}, Action::enrol_in_study},
-      {"consent text", {"nowhere.txt"}, Action::manage_studies},
-      {"consent give", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
-      {"consent withdraw", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
-      {"audit", {}, Action::read_audit},
-  };
+  std::vector<Asked> all = about_cases();
+  for (const auto& more : {about_people(), about_studies()}) all.insert(all.end(), more.begin(), more.end());
   std::set<std::string> asked{"case publish"};
   const std::int64_t before = last_row().sequence;  // the operator made what there is
   int allowed = 0, refused = 0;
@@ -290,7 +306,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
     } else if (one.action != Action::overrule_face) {
       EXPECT_NO_THROW(call(one.command, one.words, "another password\n")) << one.command;
       renew();
-      fs::remove_all(out);
+      fs::remove_all(out_);
     }
     for (const Role role : casedb::kAllRoles) {
       Subject subject = one.subject;
@@ -312,7 +328,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       EXPECT_TRUE(row.sequence == before || row.actor != "operator") << one.command << ": " << row.act;
       ++(may ? allowed : refused);
       renew();
-      fs::remove_all(out);
+      fs::remove_all(out_);
     }
   }
   for (const Command& one : commands()) EXPECT_EQ(asked.contains(one.name), one.acts) << one.name;

@@ -63,9 +63,10 @@ double to_and_fro_mm(double since_s, double period_s) {
   return 1.5 - 1.5 * std::cos(2.0 * std::numbers::pi * since_s / period_s);
 }
 
-const std::vector<Fault>& faults() {
+// Before the puncture: safety, probe and depth.
+std::vector<Fault> faults_of_checks() {
   using enum StepState;
-  static const std::vector<Fault> all = {
+  return {
       {"no sign-in", "sign_in", skipped, [](auto& s) { leave_out(s, EventKind::sign_in); }},
       {"sign-in after the puncture", "sign_in", skipped, [](auto& s) { move_event(s, EventKind::sign_in, 5.0); }},
       {"nothing decided", "decide", skipped, [](auto& s) { leave_out(s, EventKind::proceed); }},
@@ -113,6 +114,13 @@ const std::vector<Fault>& faults() {
          for (auto& pose : s.recording.poses)
            if (pose.t_s > 0.9 && pose.t_s < 1.7) pose.probe_origin_lps_mm.y = -60.0;
        }},
+  };
+}
+
+// Depth and angle, and whether it is seen.
+std::vector<Fault> faults_of_the_way_in() {
+  using enum StepState;
+  return {
       {"no depth planned", "insert_to_depth", skipped, [](auto& s) { plan(s, 0.0); }},
       {"deeper than was planned", "insert_to_depth", skipped, [](auto& s) { plan(s, 43.0); }},
       {"short of what was planned", "insert_to_depth", skipped, [](auto& s) { plan(s, 65.0); }},
@@ -152,6 +160,13 @@ const std::vector<Fault>& faults() {
        {"advance_seen", "check_in_breath_hold"}},
       {"no aspiration", "anaesthetise", violated, [](auto& s) { leave_out(s, EventKind::aspirate); }},
       {"aspiration after it", "anaesthetise", violated, [](auto& s) { move_event(s, EventKind::aspirate, 0.65); }},
+  };
+}
+
+// Anaesthetic, skin, bone, and steps taken blind.
+std::vector<Fault> faults_of_the_needle() {
+  using enum StepState;
+  return {
       {"no anaesthetic", "anaesthetise", skipped, [](auto& s) { leave_out(s, EventKind::anaesthetic); }},
       {"no nick", "nick", skipped, [](auto& s) { leave_out(s, EventKind::nick); }},
       {"skin not numb", "insert", violated, [](auto& s) { say(s, 2.1, EventKind::pain_skin); }},
@@ -167,6 +182,13 @@ const std::vector<Fault>& faults() {
        [](auto& s) {
          for (auto& frame : s.recording.frames) frame.live = frame.live && !(frame.t_s > 7.5 && frame.t_s < 8.2);
        }},
+  };
+}
+
+// Breath held, lost and given back, and what shows the tip beside it.
+std::vector<Fault> faults_of_breath() {
+  using enum StepState;
+  return {
       {"no breath held",
        "ask_breath_hold",
        skipped,
@@ -219,6 +241,13 @@ const std::vector<Fault>& faults() {
              pose.tip_lps_mm += to_and_fro_mm(pose.t_s - 4.75, 0.2) * pose.needle_direction;
            }
        }},
+  };
+}
+
+// Probe and target.
+std::vector<Fault> faults_of_the_target() {
+  using enum StepState;
+  return {
       {"the probe in the air",
        "place_probe",
        skipped,
@@ -249,6 +278,13 @@ const std::vector<Fault>& faults() {
        [](auto& s) { s.setting.target->center_lps_mm *= 1.5; },
        kUltrasoundCore,
        {"note_depth", "advance_seen", "keep_off_bone", "hold_before_organ"}},
+  };
+}
+
+// Stylet, trouble, the last look; across the picture and under a fluoroscope.
+std::vector<Fault> faults_of_the_end() {
+  using enum StepState;
+  return {
       {"the introducer's stylet drawn at the target's edge", "exchange_stylet", done,
        [](auto& s) {
          say(s, 0.9, EventKind::stylet_in);
@@ -304,7 +340,17 @@ const std::vector<Fault>& faults() {
        },
        kFluoroscopy},
   };
-  return all;
+}
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> kAll = [] {
+    std::vector<Fault> all;
+    for (const auto& some : {faults_of_checks(), faults_of_the_way_in(), faults_of_the_needle(), faults_of_breath(),
+                             faults_of_the_target(), faults_of_the_end()})
+      for (const Fault& fault : some) all.push_back(fault);
+    return all;
+  }();
+  return kAll;
 }
 
 TEST(Steps, AFaultChangesItsStepAndNoOther) {

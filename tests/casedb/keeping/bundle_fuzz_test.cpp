@@ -29,6 +29,33 @@ std::size_t most_bytes(const fs::path& file, std::string& code) {
          last_jail_use().peak_bytes;
 }
 
+// Into the file a damaged bundle, by kind: any of its bytes, its list, its rows or an asset; who `knows_format`
+// damages what means something.
+void damage(const fs::path& file, const Parts& good, const std::string& bytes, std::size_t kind, bool knows_format,
+            base::Rng& rng) {
+  if (kind == 0) {  // as a disk or a line does it: noticed, whatever it is
+    std::string damaged = bytes;
+    fixtures::mutate(damaged, rng);
+    std::ofstream(file, std::ios::binary) << damaged;
+  } else {
+    Parts parts = good;
+    if (kind == 1) {
+      (knows_format ? mutate_list : fixtures::mutate)(parts.list, rng);
+      put_as_listed(file, parts);
+    } else if (kind == 2) {
+      (knows_format ? mutate_rows : fixtures::mutate)(parts.rows[fixtures::any_below(rng, parts.rows.size())], rng);
+      put(file, parts);
+    } else {
+      const auto [name, content] = parts.assets[fixtures::any_below(rng, parts.assets.size())];
+      std::string damaged = content;
+      (knows_format ? mutate_head : fixtures::mutate)(damaged, rng);
+      const auto swapped = std::as_bytes(std::span(damaged));
+      swap_asset(parts, name, {swapped.begin(), swapped.end()});
+      put(file, parts);
+    }
+  }
+}
+
 TEST(BundleFuzz, DamageIsRefusedWithinBounds) {
   const fs::path scratch = fresh_folder(), file = scratch / "a.sdbundle";
   Library home = open_library(scratch / "home"), away = open_library(scratch / "away");
@@ -55,29 +82,7 @@ TEST(BundleFuzz, DamageIsRefusedWithinBounds) {
   const int rounds = fixtures::fuzz_rounds(250);
   for (int round = 0; round < rounds; ++round) {
     const std::size_t kind = fixtures::any_below(rng, 4);
-    const bool knows_format = round % 2 == 0;
-    if (kind == 0) {  // as a disk or a line does it: noticed, whatever it is
-      std::string damaged = bytes;
-      fixtures::mutate(damaged, rng);
-      std::ofstream(file, std::ios::binary) << damaged;
-    } else {
-      Parts parts = good;
-      if (kind == 1) {
-        (knows_format ? mutate_list : fixtures::mutate)(parts.list, rng);
-        put_as_listed(file, parts);
-      } else if (kind == 2) {
-        (knows_format ? mutate_rows : fixtures::mutate)(parts.rows[fixtures::any_below(rng, parts.rows.size())],
-                                                        rng);
-        put(file, parts);
-      } else {
-        const auto [name, content] = parts.assets[fixtures::any_below(rng, parts.assets.size())];
-        std::string damaged = content;
-        (knows_format ? mutate_head : fixtures::mutate)(damaged, rng);
-        const auto swapped = std::as_bytes(std::span(damaged));
-        swap_asset(parts, name, {swapped.begin(), swapped.end()});
-        put(file, parts);
-      }
-    }
+    damage(file, good, bytes, kind, round % 2 == 0, rng);
     const double start_s = fixtures::cpu_s();
     ASSERT_LE(most_bytes(file, code), bound) << "round " << round << ", kind " << kind;
     ASSERT_LT(fixtures::cpu_s() - start_s, 20.0) << "round " << round;

@@ -253,6 +253,62 @@ TEST_F(DamageTest, AnAttemptHasADigestForEachTable) {
   EXPECT_LE(library.database().integer("SELECT count(*) FROM digest") - before, 10);
 }
 
+// Takes away what later schemas brought.
+void back_to_schema_20(Sqlite& old) {
+  old.run(
+      "DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes; DROP INDEX "
+      "audit_of_everybodys_records; DROP INDEX metric_value_hit; DROP INDEX attempt_by_seed");
+  old.run("ALTER TABLE training_case DROP COLUMN sight_law");
+  old.run("DROP TRIGGER training_case_keeps_its_probe; ALTER TABLE training_case DROP COLUMN probe_is_chosen");
+  for (const char* later :
+       {"DROP TRIGGER training_case_keeps_its_motion", "ALTER TABLE training_case DROP COLUMN breath_law",
+        "ALTER TABLE training_case DROP COLUMN ct_breath",
+        "CREATE TRIGGER training_case_keeps_its_motion BEFORE UPDATE OF breath_depth ON training_case "
+        "BEGIN SELECT 1; END"})
+    old.run(later);  // as schema 20 has one law of breath
+  for (const char* later :
+       {"DROP TRIGGER training_case_keeps_its_touch", "ALTER TABLE training_case DROP COLUMN instrument_tip",
+        "ALTER TABLE training_case DROP COLUMN touch_law"})
+    old.run(later);  // and one law of touch
+  old.run("ALTER TABLE lesion DROP COLUMN lesion_kind");
+  for (const char* later :
+       {"DROP VIEW consenting", "DROP TRIGGER person_kind_is_immutable",
+        "DROP TRIGGER simulated_people_have_no_account", "DROP TRIGGER simulated_people_make_simulated_attempts",
+        "DROP TABLE simulated_truth", "ALTER TABLE person DROP COLUMN kind",
+        "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
+    old.run(later);  // as schema 20 has no simulated people
+  for (const char* later : {"case_preparation",
+                            "asked_event",
+                            "password_link",
+                            "web_session",
+                            "cut",
+                            "rating",
+                            "rating_known",
+                            "rating_view",
+                            "rating_rater",
+                            "rating_round",
+                            "attempt_comment",
+                            "workshop_tick",
+                            "workshop_participant",
+                            "workshop_group",
+                            "workshop_station",
+                            "workshop",
+                            "desk_response",
+                            "response",
+                            "response_set",
+                            "questionnaire_group",
+                            "questionnaire_round",
+                            "questionnaire",
+                            "study_plan",
+                            "study_stratum",
+                            "study_enrolment",
+                            "study_look",
+                            "study_deviation",
+                            "study_lock"})
+    old.run(std::string("DROP TABLE ") + later);  // as schema 20 has them not yet
+  old.run("PRAGMA user_version = 20");
+}
+
 // Until schema 20 each metric had its digest: such a copy is verified as it is, and migrated its damage stays told.
 TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
   std::string attempt_id;
@@ -264,58 +320,7 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
   }
   {
     Sqlite old(folder_ / kDatabaseFile);
-    old.run(
-        "DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes; DROP INDEX "
-        "audit_of_everybodys_records; DROP INDEX metric_value_hit; DROP INDEX attempt_by_seed");
-    old.run("ALTER TABLE training_case DROP COLUMN sight_law");
-    old.run("DROP TRIGGER training_case_keeps_its_probe; ALTER TABLE training_case DROP COLUMN probe_is_chosen");
-    for (const char* later :
-         {"DROP TRIGGER training_case_keeps_its_motion", "ALTER TABLE training_case DROP COLUMN breath_law",
-          "ALTER TABLE training_case DROP COLUMN ct_breath",
-          "CREATE TRIGGER training_case_keeps_its_motion BEFORE UPDATE OF breath_depth ON training_case "
-          "BEGIN SELECT 1; END"})
-      old.run(later);  // as schema 20 has one law of breath
-    for (const char* later :
-         {"DROP TRIGGER training_case_keeps_its_touch", "ALTER TABLE training_case DROP COLUMN instrument_tip",
-          "ALTER TABLE training_case DROP COLUMN touch_law"})
-      old.run(later);  // and one law of touch
-    old.run("ALTER TABLE lesion DROP COLUMN lesion_kind");
-    for (const char* later :
-         {"DROP VIEW consenting", "DROP TRIGGER person_kind_is_immutable",
-          "DROP TRIGGER simulated_people_have_no_account", "DROP TRIGGER simulated_people_make_simulated_attempts",
-          "DROP TABLE simulated_truth", "ALTER TABLE person DROP COLUMN kind",
-          "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
-      old.run(later);  // as schema 20 has no simulated people
-    for (const char* later : {"case_preparation",
-                              "asked_event",
-                              "password_link",
-                              "web_session",
-                              "cut",
-                              "rating",
-                              "rating_known",
-                              "rating_view",
-                              "rating_rater",
-                              "rating_round",
-                              "attempt_comment",
-                              "workshop_tick",
-                              "workshop_participant",
-                              "workshop_group",
-                              "workshop_station",
-                              "workshop",
-                              "desk_response",
-                              "response",
-                              "response_set",
-                              "questionnaire_group",
-                              "questionnaire_round",
-                              "questionnaire",
-                              "study_plan",
-                              "study_stratum",
-                              "study_enrolment",
-                              "study_look",
-                              "study_deviation",
-                              "study_lock"})
-      old.run(std::string("DROP TABLE ") + later);  // as schema 20 has them not yet
-    old.run("PRAGMA user_version = 20");
+    back_to_schema_20(old);
     Transaction transaction(old);
     renew_digests(old, {});
     transaction.commit();

@@ -101,6 +101,14 @@ struct AtTheEntry {
   double deep_mm = -30.0, felt_n = 0.0;  // the most that was asked of the right arm on its way
 };
 
+struct Fault {
+  const char* name;
+  std::function<void()> begin;
+  Json arms;  // while it lasts; null: it lasts no time
+  // Of late answers one now and then looks like an early one, and force begins to come in.
+  double most_n = 0.0;
+};
+
 // However an arm is lost while its needle is in tissue: its force is gone, its tool stays, the attempt goes on, and
 // when it is back the tool goes on from where it is, and pushes back again.
 TEST(ArmFaults, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAttemptGoesOn) {
@@ -128,13 +136,6 @@ TEST(ArmFaults, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAttemp
   ASSERT_TRUE(trainee.stands_still("inserted_mm", 0.3)) << trainee.now();
   trainee.keep_picture();
 
-  struct Fault {
-    const char* name;
-    std::function<void()> begin;
-    Json arms;  // while it lasts; null: it lasts no time
-    // Of late answers one now and then looks like an early one, and force begins to come in.
-    double most_n = 0.0;
-  };
   const Json none = {"lost", "lost"};
   const std::vector<Fault> faults = {
       {"the needle's arm is unplugged",
