@@ -129,7 +129,8 @@ TEST_P(SixtyWaysOfATorso, KeepTrueSkinAndBone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Family, SixtyWaysOfATorso,
-                         testing::Values(volume::Body::adult, volume::Body::obese, volume::Body::child));
+                         testing::Values(volume::Body::adult, volume::Body::lean, volume::Body::obese,
+                                         volume::Body::child));
 
 class SixtyWaysOfACt : public testing::TestWithParam<const char*> {};
 
