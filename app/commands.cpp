@@ -48,6 +48,7 @@ namespace seldinger::app {
   ROW(surrogate_fit)            \
   ROW(surrogate_check)          \
   ROW(surrogate_effects)        \
+  ROW(surrogate_distributions)  \
   ROW(surrogate_coverage)       \
   ROW(recovery)                 \
   ROW(score)                    \

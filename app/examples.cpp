@@ -56,6 +56,7 @@ constexpr std::string_view kLines[] = {
     "surrogate check --case 'Drill 1' --surrogate drill.json --group novice --attempts 30 --library first-hour",
     "surrogate check --surrogate drill.json --against novices.json",
     "surrogate effects --surrogate drill.json --chart effects.svg",
+    "surrogate distributions --surrogate drill.json --chart distributions.svg",
     "surrogate coverage --surrogate drill.json --shift 0 --shift 0.8 --studies 100 --truth-people 10000",
     "simulate --case 'Drill 1' --operator novice --people 5 --no-pictures --library first-hour",
     "recovery --truth 10 --library first-hour",

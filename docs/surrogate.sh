@@ -59,7 +59,7 @@ forget() {
   for name in "$@"; do rm -f "$folder/$name".md "$folder/$name".svg; done
 }
 summed part
-cmp -s "$folder/part.json" "$folder/surrogate.json" || forget effects coverage
+cmp -s "$folder/part.json" "$folder/surrogate.json" || forget effects distributions coverage
 mv "$folder/part.json" "$folder/surrogate.json"
 forget check
 set --
@@ -69,4 +69,5 @@ for level in novice intermediate expert shift-0 shift-0.8; do
 done
 told check check "$@"
 told effects effects --chart "$folder/effects.svg"
+told distributions distributions --chart "$folder/distributions.svg"
 told coverage coverage

@@ -130,6 +130,45 @@ std::string json_of_effects(const SimulatedEffects& effects) {
                            {"published", published}});
 }
 
+std::string json_of_distributions(const SimulatedDistributions& made) {
+  Json metrics = Json::array();
+  for (const MetricDistribution& metric : made.metrics) {
+    Json levels = Json::array(), published = Json::array();
+    for (const LevelDistribution& level : metric.levels) {
+      const bool told = level.sorted.size() > 1;
+      levels.push_back({{"level", level.level},
+                        {"values", level.sorted.size()},
+                        {"percentiles", told ? Json(level.quantiles) : Json(nullptr)},
+                        {"mean", told ? Json(level.mean) : Json(nullptr)},
+                        {"sd", told ? Json(level.sd) : Json(nullptr)}});
+    }
+    for (const BesidePublished& one : beside_published(metric)) {
+      const auto spread = population::spread_of(*one.row);
+      published.push_back({{"source", one.row->source},
+                           {"group", one.row->group},
+                           {"centre", population::words(one.row->centre)},
+                           {"value", one.row->value},
+                           {"spread", population::words(one.row->spread)},
+                           {"spread_ends", spread ? Json{spread->low, spread->high} : Json(nullptr)},
+                           {"n", one.row->n},
+                           {"counted", one.row->counted},
+                           {"how", one.row->how},
+                           {"level", one.row->level},
+                           {"simulated", one.simulated},
+                           {"simulated_below", one.below},
+                           {"within", one.within_spread ? Json(*one.within_spread) : Json(nullptr)}});
+    }
+    metrics.push_back(
+        {{"metric", metric.metric}, {"unit", metric.unit}, {"levels", levels}, {"published", published}});
+  }
+  return casedb::text(Json{{"synthetic", true},
+                           {"case", made.case_title},
+                           {"people", made.people},
+                           {"simulated_attempts", made.simulated_attempts},
+                           {"percentiles", {5, 25, 50, 75, 95}},
+                           {"metrics", metrics}});
+}
+
 std::string json_of_doses(const std::vector<population::MetricDose>& doses, const std::vector<double>& shifts,
                           const population::DoseOptions& options) {
   Json metrics = Json::array();

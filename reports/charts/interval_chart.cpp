@@ -12,15 +12,6 @@ constexpr double kWidth = 720.0, kLeft = 230.0, kRight = 120.0, kTop = 10.0, kPi
 constexpr double kEnd = 4.0, kHalf = 4.5;
 constexpr std::size_t kLabelColumns = 34;
 
-// At most kLabelColumns letters of UTF-8.
-std::string shortened(const std::string& label) {
-  std::size_t columns = 0;
-  for (std::size_t i = 0; i < label.size(); ++i)
-    if ((static_cast<unsigned char>(label[i]) & 0xC0U) != 0x80 && ++columns > kLabelColumns)
-      return label.substr(0, i) + "…";
-  return label;
-}
-
 struct Ends {
   double low = 1e300, high = -1e300;
   void hold(double value) {
@@ -68,7 +59,7 @@ Html interval_chart(const IntervalChart& chart) {
   add_svg_text(html, "middle", 0.5 * (kLeft + kWidth - kRight), bottom + kBottom - 6.0, chart.x_label);
   double y = kTop + 0.5 * kPitch;
   for (const IntervalRow* row : rows) {
-    add_svg_text(html, "start", 0.0, y + 4.0, shortened(row->label));
+    add_svg_text(html, "start", 0.0, y + 4.0, shortened(row->label, kLabelColumns));
     add_svg_text(html, "start", kWidth - kRight + 10.0, y + 4.0, row->beside);
     if (row->interval) {
       add_svg_line(html, "interval", at(row->interval->low), y, at(row->interval->high), y);

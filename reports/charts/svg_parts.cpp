@@ -24,6 +24,14 @@ void add_svg_text(Html& html, std::string_view anchor, double x, double y, std::
   html.raw("\">").text(text).raw("</text>");
 }
 
+std::string shortened(const std::string& label, std::size_t columns) {
+  std::size_t letters = 0;
+  for (std::size_t i = 0; i < label.size(); ++i)
+    if ((static_cast<unsigned char>(label[i]) & 0xC0U) != 0x80 && ++letters > columns)
+      return label.substr(0, i) + "…";
+  return label;
+}
+
 std::vector<double> round_ticks(double low, double high, double least_step) {
   if (!(high > low)) {
     const double off = low == 0.0 ? 1.0 : 0.1 * std::abs(low);
