@@ -13,6 +13,8 @@ constexpr std::string_view kMiyazaki = "Miyazaki et al., BMJ Open 15, 2025, e095
 constexpr std::string_view kGreiner = "Greiner et al., BMC Med. Educ. 25, 2025, 551, PMC12004677";
 constexpr std::string_view kPhal = "Phal et al., AJR 184, 2005, 1652";
 constexpr std::string_view kLaser = "Free hand and laser guide, Br. J. Radiol. 86, 2013, 20130026, PMC3755392";
+constexpr std::string_view kHayward = "Hayward et al., 10.1177/11297298251315237";
+constexpr std::string_view kSpeer = "Speer et al., Reg. Anesth. Pain Med. 38, 2013, 350";
 
 constexpr std::string_view kPlusMinus =
     "time to reach the target; the abstract says ±, taken as one standard deviation";
@@ -83,10 +85,14 @@ constexpr ReferenceDistribution kDistributions[] = {
          32.0, "from the needle in the hand to firing; a maker of guides gives a mean of 50 s for the same study"),
     lone({kLaser, "students, olive in turkey breast, free hand", "novice", 82, kBothGroups}, kTotal, Centre::mean,
          45.5, "in brackets 23.0 s; 7.0-55.0 s, which the abstract does not explain"),
+    median_and_quartiles({kHayward, "advanced users, vein of a tofu model", "expert", 80, "in all four groups"},
+                         kTotal, 28.5, 24.0, 40.0, "dynamic technique; how many were in each group is not told"),
     mean_and_sd(kBluePhantom, kToTarget, 16.0, 8.0, kPlusMinus),
     mean_and_sd(kNeedleTrainer, kToTarget, 8.0, 3.0, kPlusMinus),
     lone({kGriffiths, "students, vein of a model, in plane", "novice", 30}, kToTarget, Centre::mean, 52.8,
          "from the first puncture of the skin to aspiration"),
+    lone({kSpeer, "novices, pork phantom, along the line of sight", "novice", 24}, kToTarget, Centre::mean, 35.7,
+         "time to guide the needle to the target"),
     median_and_quartiles(kKeriControl, kPathInTissue, 629.7, 306.4, 2879.1, "needle's path inside the tissue"),
     median_and_quartiles(kKeriTrained, kPathInTissue, 426.0, 164.9, 571.6, "needle's path inside the tissue"),
     lone(kXiaFirst, kPathInTissue, Centre::not_told, 58.0, kPath),
@@ -108,6 +114,10 @@ constexpr ReferenceDistribution kDistributions[] = {
     lone(kResidents, kWithdrawals, Centre::mean, 2.5 / 0.66,
          "gross needle adjustments: the drop after training over the share that it is of the first value: 2.5 are "
          "66 %"),
+    median_and_quartiles({kHayward, "novices, vein of a tofu model", "novice", 80, "in all four groups"},
+                         kWithdrawals, 1.0, 0.0, 2.75,
+                         "needle passes, 2 (1 to 3.75), less the first; dynamic technique; how many were in each "
+                         "group is not told"),
     lone(kBluePhantom, kFirstPass, Centre::share, 1.0, "first pass, of 100 %"),
     lone(kNeedleTrainer, kFirstPass, Centre::share, 0.809, "first pass, of 80.9 %"),
     lone({kGuidance, "anesthesiologists and residents", "intermediate", 280, "attempts of 35 people"}, kFirstPass,

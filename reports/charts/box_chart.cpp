@@ -8,10 +8,10 @@
 namespace seldinger::reports {
 namespace {
 
-constexpr double kWidth = 980.0, kLeft = 385.0, kRight = 170.0, kTop = 8.0, kNote = 15.0;
+constexpr double kWidth = 980.0, kLeft = 400.0, kRight = 170.0, kTop = 8.0, kNote = 15.0;
 constexpr double kTitle = 26.0, kPitch = 17.0, kAxis = 24.0, kGap = 12.0;
 constexpr double kBoxHalf = 5.0, kEnd = 3.0, kMark = 3.5, kFoot = 4.0;
-constexpr std::size_t kLabelColumns = 68;
+constexpr std::size_t kLabelColumns = 72;
 
 struct Scale {
   std::vector<double> ticks;  // the first and the last are its ends

@@ -83,7 +83,7 @@ TEST(Distributions, APublishedFigureLiesAboveThoseBelowIt) {
   MetricDistribution made{"time_puncture_to_target", "s", false, {}};
   made.levels.push_back(distribution_of("novice", {4.0, 8.0, 8.0, 30.0}));
   const auto published = beside_published(made);
-  ASSERT_EQ(published.size(), 3U);
+  ASSERT_EQ(published.size(), 4U);
   for (const BesidePublished& one : published) {
     EXPECT_EQ(one.row->level, "novice");
     EXPECT_NEAR(one.simulated, 12.5, 1e-12) << "a mean beside a mean";

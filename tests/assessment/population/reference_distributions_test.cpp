@@ -70,6 +70,9 @@ TEST(ReferenceDistributions, AreWhatTheirSourcesGive) {
   EXPECT_NEAR(spread_of(block)->low, 8.0, 1e-9);
   EXPECT_NEAR(spread_of(block)->high, 24.0, 1e-9);
   EXPECT_EQ(block.n, 47U);
+  const auto& advanced = distribution_of("Hayward", "time_total", "advanced");  // 28.5 s (24-40)
+  EXPECT_EQ(advanced.level, "expert");
+  EXPECT_NEAR(spread_of(advanced)->high, 40.0, 1e-9);
   // 92.3 s less are 68 %.
   EXPECT_NEAR(0.68 * distribution_of("Fulton", "time_total", "residents").value, 92.3, 1e-9);
   EXPECT_NEAR(distribution_of("PMC5318157", "first_pass_success", "residents").value, 0.764, 5e-4);

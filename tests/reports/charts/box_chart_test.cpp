@@ -26,17 +26,17 @@ double number_after(const std::string& text, const std::string& before) {
   return std::stod(text.substr(at + before.size()));
 }
 
-// On an axis of 0 to 100 between x = 385 and 810.
+// On an axis of 0 to 100 between x = 400 and 810.
 TEST(BoxChart, ABoxStandsWhereItsPercentilesAre) {
   BoxRow row;
   row.label = "novices";
   row.box = {{0.0, 20.0, 50.0, 60.0, 100.0}};
   row.centre = 55.0;
   const std::string svg = box_chart(one_panel(row)).str();
-  EXPECT_NEAR(number_after(svg, "class=\"box\" x=\""), 385.0 + 0.2 * 425.0, 0.06);
-  EXPECT_NEAR(number_after(svg, "class=\"median\" x1=\""), 385.0 + 0.5 * 425.0, 0.06);
-  EXPECT_NEAR(number_after(svg, "class=\"mean\" cx=\""), 385.0 + 0.55 * 425.0, 0.06);
-  EXPECT_NEAR(number_after(svg, "class=\"drawn\" x1=\""), 385.0, 0.06);
+  EXPECT_NEAR(number_after(svg, "class=\"box\" x=\""), 400.0 + 0.2 * 410.0, 0.06);
+  EXPECT_NEAR(number_after(svg, "class=\"median\" x1=\""), 400.0 + 0.5 * 410.0, 0.06);
+  EXPECT_NEAR(number_after(svg, "class=\"mean\" cx=\""), 400.0 + 0.55 * 410.0, 0.06);
+  EXPECT_NEAR(number_after(svg, "class=\"drawn\" x1=\""), 400.0, 0.06);
   EXPECT_THAT(svg, Not(HasSubstr("logarithmic")));
   EXPECT_THAT(svg, HasSubstr("novices"));
 }
@@ -49,7 +49,7 @@ TEST(BoxChart, WhatIsFarApartAndAboveZeroHasALogarithmicAxis) {
   const std::string svg = box_chart(one_panel(row)).str();
   EXPECT_THAT(svg, HasSubstr("(logarithmic axis)"));
   // Halfway between 10 and 1000, less half of the square.
-  EXPECT_NEAR(number_after(svg, "class=\"square said\" x=\""), 385.0 + 0.5 * 425.0 - 3.5, 0.06);
+  EXPECT_NEAR(number_after(svg, "class=\"square said\" x=\""), 400.0 + 0.5 * 410.0 - 3.5, 0.06);
   row.spread->low = 0.0;
   EXPECT_THAT(box_chart(one_panel(row)).str(), Not(HasSubstr("logarithmic")));
 }
