@@ -115,6 +115,59 @@ TEST(Face, TheRealVolumesAndTheTorsoHaveNone) {
   EXPECT_FALSE(find_face(volume::make_volume({5, 5, 5}, glm::dvec3(1.0), glm::dmat3(1.0), glm::dvec3(0.0))).found);
 }
 
+// Voxels `from` to `to` along the first axis.
+volume::Volume columns(const volume::Volume& whole, int from, int to) {
+  volume::Volume part = whole;
+  part.size_voxels.x = to - from;
+  part.lps_from_voxel[3] = whole.lps_from_voxel * glm::dvec4(from, 0.0, 0.0, 1.0);
+  part.hu.clear();
+  for (int k = 0; k < whole.size_voxels.z; ++k)
+    for (int j = 0; j < whole.size_voxels.y; ++j)
+      for (int i = from; i < to; ++i) part.hu.push_back(whole.at(i, j, k));
+  return part;
+}
+
+// Ribs or a pelvis in front and nothing behind: half a trunk may be as wide as a head is at most.
+TEST(Face, HalfATrunkHasNone) {
+  SELDINGER_NEEDS_SHARED_DATA();
+  std::vector<std::pair<std::string, volume::Volume>> trunks;
+  for (const char* name : {"ct-abdomen-pelvis/abdomen_pelvis_2x.mha", "ct-abdomen-contrast-dicom"}) {
+    auto source = read_source(shared_data(name));
+    ASSERT_TRUE(source) << name;
+    trunks.emplace_back(name, std::move(source->volume));
+  }
+  trunks.emplace_back("torso", volume::make_phantom().volume);
+  for (const auto& [name, whole] : trunks) {
+    const int size = whole.size_voxels.x;
+    for (const double wide_mm : {174.0, 186.0, 195.0})
+      for (const double body_mm : {0.0, 30.0}) {  // air that the field shows beside the body
+        const int wide = static_cast<int>(wide_mm / whole.spacing_mm.x),
+                  off = static_cast<int>(body_mm / whole.spacing_mm.x);
+        for (const int from : {off, size - off - wide})
+          EXPECT_FALSE(find_face(columns(whole, from, from + wide)).found)
+              << name << ", " << wide_mm << " mm from " << from;
+      }
+  }
+}
+
+TEST(Face, IsFoundInAHeadThatTheFieldCutsAtASide) {
+  const volume::Volume head = head_volume(part(-125, -55));
+  const int size = head.size_voxels.x;
+  int left = size, right = 0;  // of the head itself
+  for (int k = 0; k < head.size_voxels.z; ++k)
+    for (int j = 0; j < head.size_voxels.y; ++j)
+      for (int i = 0; i < size; ++i)
+        if (head.at(i, j, k) > -300) {
+          left = std::min(left, i);
+          right = std::max(right, i);
+        }
+  for (const double off_mm : {2.0, 6.0, 10.0}) {
+    const int off = static_cast<int>(off_mm / head.spacing_mm.x);
+    EXPECT_TRUE(find_face(columns(head, left + off, size)).found) << off_mm;
+    EXPECT_TRUE(find_face(columns(head, left + off, right - off)).found) << off_mm << " on both sides";
+  }
+}
+
 TEST(Face, IsRefusedUnlessTheUserChooses) {
   volume::Volume head = head_volume({});
   const volume::Volume before = head;
