@@ -20,11 +20,11 @@ TEST(Scene, NamesTheBuiltInTorso) {
   EXPECT_EQ(volume->lps_from_voxel, torso.volume.lps_from_voxel);
   EXPECT_EQ(volume->hu, torso.volume.hu);
   // Classes come from its labels: HU alone cannot tell liver from spleen.
-  const auto classes = classes_of(*scene, *volume, "");
-  ASSERT_TRUE(classes.has_value());
+  const auto tissue = tissue_of(*scene, *volume, "");
+  ASSERT_TRUE(tissue.has_value());
   const auto class_at = [&](const glm::dvec3& p_lps_mm) {
     const glm::dvec3 at = glm::dvec3(volume::voxel_from_lps(*volume) * glm::dvec4(p_lps_mm, 1.0)) + 0.5;
-    return (*classes)[volume->index(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z))];
+    return tissue->classes[volume->index(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z))];
   };
   EXPECT_EQ(class_at({-100.0, 0.0, 10.0}), volume::TissueClass::liver);
   EXPECT_EQ(class_at({104.0, 34.0, 58.0}), volume::TissueClass::spleen);
