@@ -12,6 +12,7 @@
 #include "casedb/cases/authoring.h"
 #include "casedb/database/library.h"
 #include "session/case/case_check.h"
+#include "sim/case/form/shape.h"
 #include "tests/fixtures/folders.h"
 
 namespace seldinger::app {
@@ -31,7 +32,8 @@ std::vector<Target> targets() {
   return {
       {"liver, under the ribs", graded(1), {"gallbladder", "stomach", "colon", "small_bowel", "vena_cava"}},
       {"liver, between ribs", graded(2), {"lung", "pleural_recess", "intercostal_bundle", "colon", "gallbladder"}},
-      {"right kidney", graded(5), kidney},
+      // The calyx that is its target is urine itself: artery and pelvis beside it are drawn.
+      {"right kidney", graded(5), {"colon", "lung", "pleural_recess"}},
       {"left kidney", graded(3), kidney},
       {"right groin", access(1), {"femoral_artery", "nerve", "small_bowel"}},
       {"left groin", access(2), {"femoral_vein", "nerve", "small_bowel"}},
@@ -45,7 +47,7 @@ double to_way_mm(const glm::dvec3& p, const glm::dvec3& from, const glm::dvec3& 
   return glm::length(p - from - share * way);
 }
 
-// From the straight way to the nearest voxel's middle of what must be avoided.
+// From the straight way to the nearest voxel's middle of what must be avoided, or to what is drawn as that.
 double nearest_mm(const casedb::NewCase& patient, const Target& target, const glm::dvec3& entry_lps_mm) {
   const volume::Volume& volume = patient.volume;
   std::vector<bool> avoid(patient.labels->names.size());
@@ -60,6 +62,11 @@ double nearest_mm(const casedb::NewCase& patient, const Target& target, const gl
         if (avoid[patient.labels->label[at]])
           least_mm = std::min(least_mm, to_way_mm(glm::dvec3(volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0)),
                                                   entry_lps_mm, to_lps_mm));
+  for (const DemoStructure& one : target.made->structures)
+    if (one.row.kind == casedb::StructureKind::drawn && one.row.rule == cases::StructureRule::critical)
+      for (double at_share = 0.0; at_share <= 1.0; at_share += 0.005)
+        least_mm = std::min(
+            least_mm, cases::signed_distance_mm(one.row.drawn, glm::mix(entry_lps_mm, to_lps_mm, at_share), 30.0));
   return least_mm;
 }
 
