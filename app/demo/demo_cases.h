@@ -23,9 +23,9 @@ enum class DemoSource {
   torso_opacified,
   torso_prone,
   neck,
-  neck_child,
+  neck_obese,
+  groin_child,
   groin_lean,
-  groin_obese,
   contrast_liver,
   abdomen_pelvis,
   thorax_inlet

@@ -70,12 +70,12 @@ std::optional<base::Result<casedb::NewCase>> built_in(DemoSource source) {
       return import_phantom({.posture = volume::Posture::prone});
     case DemoSource::neck:
       return import_phantom({.region = volume::Region::neck});
-    case DemoSource::neck_child:
-      return import_phantom({.region = volume::Region::neck, .body = volume::Body::child});
+    case DemoSource::neck_obese:
+      return import_phantom({.region = volume::Region::neck, .body = volume::Body::obese});
+    case DemoSource::groin_child:
+      return import_phantom({.region = volume::Region::groin, .body = volume::Body::child});
     case DemoSource::groin_lean:
       return import_phantom({.region = volume::Region::groin, .body = volume::Body::lean});
-    case DemoSource::groin_obese:
-      return import_phantom({.region = volume::Region::groin, .body = volume::Body::obese});
     default:
       return std::nullopt;
   }

@@ -5,13 +5,15 @@
 namespace seldinger::gaming {
 namespace {
 
-TEST(Gaming, PassesNoDrillAndNoGradedCaseOfBuiltInPatients) {
+TEST(Gaming, PassesNoDrillAndNoCaseOfBuiltInPatients) {
   const fixtures::CommandLibrary made(fixtures::fresh_folder("gaming"));
-  ASSERT_EQ(made.demo("--cases").at("cases").size(), 8U);
+  const auto demo = made.demo("--cases");
+  ASSERT_EQ(demo.at("cases").size(), 8U);
+  ASSERT_EQ(demo.at("access").size(), 3U);
   auto library = casedb::Library::open(made.path());
   ASSERT_TRUE(library.has_value()) << library.error().text;
   const auto all = all_played(*library);
-  EXPECT_EQ(all.size(), 11U * (1 + gaming_players().size()));
+  EXPECT_EQ(all.size(), 14U * (1 + gaming_players().size()));
   expect_only_honest_passes(all);
 }
 

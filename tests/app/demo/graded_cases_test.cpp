@@ -35,7 +35,7 @@ TEST(AccessCases, AreOfTheBodiesAndTheRegionsThatTheGradedOnesLeaveOut) {
     EXPECT_EQ(one.lesions.size(), 1U);
     sources.insert(one.source);
   }
-  EXPECT_EQ(sources, (std::set{DemoSource::neck_child, DemoSource::groin_lean, DemoSource::groin_obese}));
+  EXPECT_EQ(sources, (std::set{DemoSource::neck_obese, DemoSource::groin_child, DemoSource::groin_lean}));
 }
 
 // Whoever lies on the table, a case asks for the same.

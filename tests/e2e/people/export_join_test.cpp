@@ -156,9 +156,9 @@ TEST(ExportJoin, OneKnownValueFindsFewOfAnExportWithoutAKey) {
   const auto itself = [](double value) { return value; };
   const Exported exact = made().exported("exact", "--raw none --study Needles --key " + made().at("needles.key"));
   const Exported coarse = made().exported("coarse", "--raw none");
-  // A distance has few digits, so one still finds most of forty rows.
+  // A distance has few digits, so one still finds most of forty rows: how many depends on how far they spread.
   const std::pair<const char*, int> most[] = {
-      {"ldlj", 10}, {"path_tip", 10}, {"time_total", 20}, {"tip_target_dist", 30}};
+      {"ldlj", 10}, {"path_tip", 10}, {"time_total", 20}, {"tip_target_dist", 38}};
   for (const auto& [metric, limit] : most) {
     const int of_exact = made().found_by(exact, metric, itself),
               of_coarse = made().found_by(coarse, metric, two_digits);
