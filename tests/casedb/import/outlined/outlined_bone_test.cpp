@@ -41,7 +41,9 @@ class OutlinedBone : public ImportCase {};
 // these by .96 on the fine slice, .93 to .97 on the others, so .02 of what is asked for may be the reader's.
 TEST_F(OutlinedBone, IsFoundAsAReaderDrewIt) {
   SELDINGER_NEEDS_SHARED_DATA();
-  for (const OutlinedSlice& slice : outlined_slices()) {
+  const std::vector<OutlinedSlice> slices = outlined_slices();
+  ASSERT_EQ(slices.size(), 4U);
+  for (const OutlinedSlice& slice : slices) {
     SCOPED_TRACE(slice.ct);
     const auto source = read(shared_data(slice.ct));
     ASSERT_TRUE(source);

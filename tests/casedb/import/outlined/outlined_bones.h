@@ -1,6 +1,6 @@
-// Bones that a reader outlined by eye on one slice of each real CT (enlarged 5 to 12 times, window −150 to 550 HU),
-// before anything of the program was looked at; marrow is bone. Voxels are those of the volume as it is read, x
-// right to left, y front to back.
+// Bones that a reader outlined by eye (outlined_bones.txt) on one slice of each real CT (enlarged 5 to 12 times,
+// window −150 to 550 HU), before anything of the program was looked at; marrow is bone. Voxels are those of the
+// volume as it is read, x right to left, y front to back.
 #pragma once
 
 #include <glm/vec2.hpp>
