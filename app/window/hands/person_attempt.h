@@ -153,7 +153,7 @@ class PersonAttempt {
   cases::FluoroscopeInputs fluoroscope_;
   cases::ConsoleSetting console_;
   static constexpr std::uint64_t kMostSaid = 32;
-  struct Said {
+  struct alignas(4) Said {  // as large as it is aligned: else clang calls libatomic for it
     cases::EventKind kind = cases::EventKind::none;
     std::uint16_t tenths_mm = 0;
   };
