@@ -131,9 +131,8 @@ void add_levels(const SimulatedDistributions& made, std::string& text) {
 
 void add_published(const SimulatedDistributions& made, std::string& text) {
   text +=
-      "\n| metric | published | of | value | spread | n | simulated | published lies above | simulated in the "
-      "spread | what "
-      "it is of |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      "\n| metric | published | of | value | spread | n | simulated | published lies above | "
+      "simulated in the spread | what it is of |\n|---|---|---|---|---|---|---|---|---|---|\n";
   std::string without;
   for (const MetricDistribution& metric : made.metrics) {
     const auto published = beside_published(metric);

@@ -133,9 +133,8 @@ Html box_chart(const BoxChart& chart) {
   double height = kTop + kNote * static_cast<double>(chart.notes.size()) + kFoot;
   for (const BoxPanel& panel : chart.panels) height += height_of(panel);
   html.raw(
-      "<svg class=\"boxes\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\" font-family=\"'DejaVu Sans', "
-      "Verdana, "
-      "sans-serif\" viewBox=\"0 0 ");
+      "<svg class=\"boxes\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\" "
+      "font-family=\"'DejaVu Sans', Verdana, sans-serif\" viewBox=\"0 0 ");
   html.text(svg_px(kWidth) + " " + svg_px(height)).raw("\"><title>").text(chart.said).raw("</title>\n");
   html.raw(
       "<style>text{fill:#333;font-size:11px}.title text{font-size:12.5px;font-weight:bold}"
