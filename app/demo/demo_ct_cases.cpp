@@ -40,8 +40,8 @@ DemoCase ct_kidney_cortex() {
 DemoCase ct_jugular_vein() {
   DemoCase made = jugular_vein();
   made.source = DemoSource::thorax_inlet;
-  // The lumen where it is entered.
-  made.lesions = {sphere_form({-22.1, -210.2, 83.0}, 6.0, 12.0)};
+  // The lumen where it is entered, above the end of the clavicle.
+  made.lesions = {sphere_form({-20.9, -217.0, 86.0}, 6.0, 12.0)};
   made.structures = {
       drawn("carotid", StructureRule::critical, TissueClass::vessel,
             cases::Tube{{{-9.5, -216, 91}, {-9.7, -212.4, 88}, {-10.5, -187.5, 78}, {-12, -178, 66}}, 3.5}, 45.0),
