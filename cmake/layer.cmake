@@ -9,7 +9,7 @@ file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/generated/headers.cpp CONTENT "// Nothi
 function(seldinger_headers NAME)
   add_library(${NAME} OBJECT ${CMAKE_BINARY_DIR}/generated/headers.cpp)
   target_link_libraries(${NAME} PRIVATE seldinger_options)
-  target_precompile_headers(${NAME} PRIVATE <algorithm> <array> <bit> <charconv> <cmath> <cstdint> <cstdio> <filesystem>
+  seldinger_precompile(${NAME} <algorithm> <array> <bit> <charconv> <cmath> <cstdint> <cstdio> <filesystem>
     <functional> <map> <memory> <numeric> <optional> <set> <span> <sstream> <string> <string_view> <tuple> <utility>
     <variant> <vector> <sim/base/result.h> ${ARGN})
 endfunction()
