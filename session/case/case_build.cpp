@@ -110,7 +110,7 @@ void finish(Needs needs, const imaging::PortalLumen& portal, cases::Case& scene)
     if (scene.sight_law != cases::SightLaw::half_slice)
       imaging::show_organs(scene.volume, scene.classes, scene.echogenicity);
     imaging::show_portal_walls(scene.volume, scene.classes, portal.voxels(), scene.echogenicity);
-    imaging::settle_lesions(scene.volume, scene.classes, scene.echogenicity, scene.lesions);
+    imaging::settle_lesions(scene.volume, scene.classes, scene.echogenicity, scene.lesions, scene.sight_law);
   }
   // The table is set so that the machine turns about the middle of what there is.
   const glm::dvec4 middle(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0);

@@ -1,3 +1,5 @@
+#include "shared/ultrasound_lattice.glsl.h"
+
 // The class of a voxel, or of the lesion that stands at its place; air outside the volume.
 uint class_at(ivec3 voxel, vec3 from_origin_mm) {
   ivec3 size = ivec3(tissue.size_x, tissue.size_y, tissue.size_z);
@@ -27,7 +29,11 @@ float speckle_amplitude(vec3 index, vec3 from_origin_mm) {
     vec3 off = from_origin_mm - tissue.lesion_sphere_mm[i].xyz;
     float radius = tissue.lesion_sphere_mm[i].w;
     float inner = tissue.lesion_rim[i].z;
-    float part = dot(off, off) <= inner * inner ? tissue.lesion_amplitude[i].x : tissue.lesion_rim[i].x;
+    bool is_inside = dot(off, off) <= inner * inner;
+    float part = is_inside ? tissue.lesion_amplitude[i].x : tissue.lesion_rim[i].x;
+    float log_sd = tissue.lesion_amplitude[i].z;
+    if (is_inside && log_sd > 0.0)
+      part *= us_texture(uint(tissue.lesion_rim[i].w), tissue.lesion_amplitude[i].w, log_sd, off.x, off.y, off.z);
     amplitude = dot(off, off) <= radius * radius ? part : amplitude;
   }
   return amplitude;

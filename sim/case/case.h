@@ -44,7 +44,8 @@ struct Instrument {
 struct LesionEcho {
   volume::TissueClass inside = volume::TissueClass::soft_tissue, rim = volume::TissueClass::soft_tissue;
   double inside_db = 0.0, rim_db = 0.0;
-  double rim_mm = 0.0;  // of its own outside
+  double rim_mm = 0.0;      // of its own outside
+  LesionTexture texture{};  // of the inside
 };
 
 // A sphere of one HU is drawn by the pictures. Any other (sim/case/lesion_form.h) has a shape and lies in the
@@ -78,7 +79,8 @@ enum class SightLaw {
   echo,        // the tip by its echo alone, a target by contrast and size
   scatter,     // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
   clutter,     // with clutter in ultrasound (docs/decisions/0090)
-  material     // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098), portal walls (0100)
+  material     // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098), portal walls (0100),
+               // and lesions' texture (0102)
 };
 inline constexpr auto kSightLawNames = base::names<SightLaw>({{SightLaw::half_slice, "half_slice"},
                                                               {SightLaw::echo, "echo"},

@@ -69,10 +69,12 @@ UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, co
     if (!is_shown(lesion)) continue;
     t.lesion_sphere_mm[t.lesion_count] = vec4_from(lesion.center_lps_mm - view.origin_lps_mm, lesion.radius_mm);
     const cases::LesionEcho echo = echo_of(lesion);
-    t.lesion_amplitude[t.lesion_count] = {speckle_amplitude(echo.inside_db), static_cast<float>(echo.inside), 0.0F,
-                                          0.0F};
+    const Texture texture(lesion, echo);
+    t.lesion_amplitude[t.lesion_count] = {speckle_amplitude(echo.inside_db), static_cast<float>(echo.inside),
+                                          texture.log_sd, texture.grains_per_mm};
     t.lesion_rim[t.lesion_count] = {speckle_amplitude(echo.rim_db), static_cast<float>(echo.rim),
-                                    static_cast<float>(inner_radius_mm(lesion, echo)), 0.0F};
+                                    static_cast<float>(inner_radius_mm(lesion, echo)),
+                                    static_cast<float>(texture.key)};
     ++t.lesion_count;
   }
   t.size_x = tissue.volume->size_voxels.x;

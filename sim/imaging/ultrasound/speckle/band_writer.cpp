@@ -261,7 +261,7 @@ void ScattererField::BandWriter::lay_chunk() const {
     float tissue = 0.0F;
     if (!blends) {
       tissue = tissue_at.speckle(p);
-    } else if (const float* of_lesion = in_lps ? tissue_at.speckle_of_lesion(p) : nullptr) {
+    } else if (const auto of_lesion = in_lps ? tissue_at.speckle_of_lesion(p) : std::nullopt) {
       tissue = *of_lesion;
     } else {
       const std::uint32_t bits = shaders::us_stray_bits(chunk_.seed[n]);

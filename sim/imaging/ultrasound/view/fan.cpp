@@ -68,11 +68,14 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
     if (is_shown(lesion)) {
       const cases::LesionEcho echo = echo_of(lesion);
       const double inner_mm = inner_radius_mm(lesion, echo);
-      lesions_.push_back({lesion.center_lps_mm,
+      const Texture texture(lesion, echo);
+      const glm::dvec3& center = lesion.center_lps_mm;
+      lesions_.push_back({center,
                           lesion.radius_mm * lesion.radius_mm,
                           inner_mm * inner_mm,
-                          {echo.inside, speckle_amplitude(echo.inside_db)},
-                          {echo.rim, speckle_amplitude(echo.rim_db)}});
+                          {echo.inside, speckle_amplitude(echo.inside_db), center,
+                           texture.log_sd > 0.0F ? std::optional(texture) : std::nullopt},
+                          {echo.rim, speckle_amplitude(echo.rim_db), center}});
     }
   const glm::dmat4 m = volume::voxel_from_lps(*tissue.volume);
   a_ = m[0], b_ = m[1], c_ = m[2], d_ = glm::dvec3(m[3]) + 0.5;

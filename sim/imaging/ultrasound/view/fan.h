@@ -4,7 +4,9 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
@@ -51,13 +53,14 @@ class TissueAt {
   void of(SideBySide& places, std::span<volume::TissueClass> tissue) const noexcept;  // of many (tissue_along.h)
   // Amplitude of the speckle, 1 for liver.
   float speckle(const glm::dvec3& p_lps_mm) const noexcept {
-    if (const Part* part = lesion_at(p_lps_mm)) return part->amplitude;
+    if (const auto of_lesion = speckle_of_lesion(p_lps_mm)) return *of_lesion;
     return speckle_of(voxel_at(p_lps_mm));
   }
-  // Of the lesion there; null: of none.
-  const float* speckle_of_lesion(const glm::dvec3& p_lps_mm) const noexcept {
+  // Of the lesion there.
+  std::optional<float> speckle_of_lesion(const glm::dvec3& p_lps_mm) const noexcept {
     const Part* part = lesion_at(p_lps_mm);
-    return part == nullptr ? nullptr : &part->amplitude;
+    if (part == nullptr) return std::nullopt;
+    return part->texture ? part->amplitude * part->texture->at(p_lps_mm - part->center_lps_mm) : part->amplitude;
   }
   bool has_lesions() const noexcept { return !lesions_.empty(); }
   // Of the volume alone, at a place told in voxels: index + ½, so that truncation is the nearest.
@@ -77,6 +80,8 @@ class TissueAt {
   struct Part {
     volume::TissueClass tissue;
     float amplitude;
+    glm::dvec3 center_lps_mm;
+    std::optional<Texture> texture{};
   };
   struct Sphere {
     glm::dvec3 center_lps_mm;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
+#include "shaders/shared/ultrasound_lattice.glsl.h"
 #include "sim/base/check.h"
 #include "sim/case/paint.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
@@ -23,10 +25,20 @@ bool is_tissue(TissueClass tissue) {
 void put_in_volume(const cases::Lesion& lesion, const volume::Volume& volume, std::span<TissueClass> classes,
                    std::span<std::uint8_t> echogenicity) {
   const cases::LesionEcho& echo = *lesion.echo;
+  const Texture texture(lesion, echo);
+  const auto nx = static_cast<std::size_t>(volume.size_voxels.x),
+             ny = static_cast<std::size_t>(volume.size_voxels.y);
   cases::over_voxels_in(*lesion.shape, volume, echo.rim_mm, [&](std::size_t at, double depth_mm) {
     const bool rim = depth_mm < echo.rim_mm;
     classes[at] = rim ? echo.rim : echo.inside;
-    echogenicity[at] = echo_level(rim ? echo.rim_db : echo.inside_db, classes[at]);
+    double level_db = rim ? echo.rim_db : echo.inside_db;
+    if (!rim && texture.log_sd > 0.0F) {
+      const glm::dvec4 voxel(static_cast<double>(at % nx), static_cast<double>(at / nx % ny),
+                             static_cast<double>(at / nx / ny), 1.0);
+      const glm::dvec3 off_mm = glm::dvec3(volume.lps_from_voxel * voxel) - lesion.center_lps_mm;
+      level_db += 20.0 * std::log10(static_cast<double>(texture.at(off_mm)));
+    }
+    echogenicity[at] = echo_level(level_db, classes[at]);
   });
 }
 
@@ -69,6 +81,7 @@ cases::LesionEcho lesion_echo(const TissueVolume& tissue, const cases::Lesion& l
                                  : acoustic_table()[static_cast<std::size_t>(echo.inside)].scatter_db;
   echo.rim_db = about_db + look.rim_db;
   echo.rim_mm = look.rim_mm;
+  echo.texture = look.texture;
   return echo;
 }
 
@@ -80,15 +93,31 @@ cases::LesionEcho echo_of(const cases::Lesion& lesion) noexcept {
   return echo;
 }
 
+Texture::Texture(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept
+    : key(0),
+      grains_per_mm(echo.texture.grain_mm > 0.0 ? static_cast<float>(1.0 / echo.texture.grain_mm) : 0.0F),
+      log_sd(static_cast<float>(echo.texture.sd_db * std::numbers::ln10 / 20.0)) {
+  // Two lesions a hundredth of a millimetre apart differ.
+  for (const double mm : {lesion.center_lps_mm.x, lesion.center_lps_mm.y, lesion.center_lps_mm.z})
+    key = shaders::mix_32(key ^ static_cast<std::uint32_t>(std::llround(100.0 * mm)));
+  key >>= 8U;
+}
+
+float Texture::at(const glm::dvec3& from_center_mm) const noexcept {
+  const glm::vec3 off(from_center_mm);
+  return shaders::us_texture(key, grains_per_mm, log_sd, off.x, off.y, off.z);
+}
+
 double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept {
   return std::max(0.0, lesion.radius_mm - echo.rim_mm);
 }
 
 void settle_lesions(const volume::Volume& volume, std::span<TissueClass> classes,
-                    std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions) {
+                    std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions, cases::SightLaw law) {
   for (cases::Lesion& lesion : lesions) {
     if (lesion.kind == cases::LesionKind::by_hu) continue;
     lesion.echo = lesion_echo({&volume, classes, echogenicity}, lesion);
+    if (law < cases::SightLaw::material) lesion.echo->texture = {};
     if (lesion.in_volume() && !echogenicity.empty()) put_in_volume(lesion, volume, classes, echogenicity);
   }
 }

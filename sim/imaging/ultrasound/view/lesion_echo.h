@@ -19,9 +19,19 @@ cases::LesionEcho echo_of(const cases::Lesion& lesion) noexcept;
 // Where the rim of a sphere begins; ≥ 0.
 double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept;
 
+// Of a lesion's inside, fixed to it: what its speckle is times at a place
+// (shaders/shared/ultrasound_lattice.glsl.h).
+struct Texture {
+  Texture(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept;
+  float at(const glm::dvec3& from_center_mm) const noexcept;
+  std::uint32_t key;  // of its centre; below 2²⁴, so that float holds it
+  float grains_per_mm, log_sd;
+};
+
 // Settles every lesion whose kind has a look of its own, and puts those that lie in the volume into it: their
-// voxels take class and level, which replace what HU told.
+// voxels take class and level, which replace what HU told. With texture by the law `material` and later.
 void settle_lesions(const volume::Volume& volume, std::span<volume::TissueClass> classes,
-                    std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions);
+                    std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions,
+                    cases::SightLaw law = cases::kNewestSightLaw);
 
 }  // namespace seldinger::imaging

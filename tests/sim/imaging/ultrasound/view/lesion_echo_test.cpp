@@ -78,7 +78,10 @@ TEST(LesionEcho, WrittenIntoTheVolumeItIsWhatThePictureWouldDraw) {
     inserted.lesions = painted;
     const TissueAt as_painted(after, inserted);
     for (const double along_mm : {0.0, 5.0, 20.0}) {
-      const glm::dvec3 p = painted[0].center_lps_mm + glm::dvec3(along_mm, 0.0, 0.0);
+      // In the middle of a voxel: its texture is that of the whole voxel.
+      const glm::dvec3 along = painted[0].center_lps_mm + glm::dvec3(along_mm, 0.0, 0.0);
+      const glm::dvec4 voxel = glm::round(volume::voxel_from_lps(s.volume) * glm::dvec4(along, 1.0));
+      const glm::dvec3 p(s.volume.lps_from_voxel * voxel);
       EXPECT_NEAR(level_at(as_drawn, p), level_at(as_painted, p), 0.5 * kEchoStepDb + 1e-3)
           << kind.words << " at " << along_mm;
       EXPECT_EQ(as_drawn(p), as_painted(p)) << kind.words << " at " << along_mm;
@@ -90,6 +93,7 @@ TEST(LesionEcho, ARimLiesWithinTheLesion) {
   const Scene s = all_of(TissueClass::liver);
   std::vector<cases::Lesion> lesions = {in_the_middle(cases::LesionKind::metastasis)};
   lesions[0].echo = lesion_echo(s.tissue(), lesions[0]);
+  lesions[0].echo->texture = {};
   Inserted inserted;
   inserted.lesions = lesions;
   const TissueAt tissue_at(s.tissue(), inserted);
@@ -102,6 +106,56 @@ TEST(LesionEcho, ARimLiesWithinTheLesion) {
   EXPECT_NEAR(level(12.0 - look.rim_mm + 0.1), look.rim_db, 1e-3);
   EXPECT_NEAR(level(11.9), look.rim_db, 1e-3);
   EXPECT_NEAR(level(12.1), 0.0, 1e-3);
+}
+
+// Which of them have one is the table's to say; by the older laws none has.
+TEST(LesionEcho, HasItsKindsTextureByTheNewestLaw) {
+  Scene s = all_of(TissueClass::liver);
+  std::vector<std::uint8_t> levels(s.classes.size(), kNoEchoOffset);
+  int textured = 0;
+  for (const cases::LesionKindRow& kind : cases::lesion_kinds()) {
+    if (kind.kind == cases::LesionKind::by_hu) continue;
+    std::vector<cases::Lesion> lesions = {in_the_middle(kind.kind)};
+    settle_lesions(s.volume, s.classes, levels, lesions, cases::SightLaw::clutter);
+    EXPECT_EQ(lesions[0].echo->texture.sd_db, 0.0) << kind.words;
+    settle_lesions(s.volume, s.classes, levels, lesions);
+    EXPECT_EQ(lesions[0].echo->texture.sd_db, kind.look.texture.sd_db) << kind.words;
+    EXPECT_EQ(lesions[0].echo->texture.grain_mm, kind.look.texture.grain_mm) << kind.words;
+    textured += kind.look.texture.sd_db > 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(textured, 3);
+}
+
+// Levels in dB of a textured lesion's inside, relative to its own, on a grid of a tenth of a grain.
+TEST(LesionEcho, ATextureSpreadsAsItsRowSaysAndKeepsTheMeanSquare) {
+  constexpr int kSide = 60;
+  for (const cases::LesionKindRow& kind : cases::lesion_kinds()) {
+    const auto& [sd_db, grain_mm] = kind.look.texture;
+    if (sd_db == 0.0) continue;
+    double power = 0.0, sum = 0.0, squares = 0.0, near = 0.0, far = 0.0;
+    int count = 0;
+    for (int seed = 0; seed < 8; ++seed) {
+      cases::Lesion lesion = in_the_middle(kind.kind, 40.0);
+      lesion.center_lps_mm.x += seed;
+      const Texture texture(lesion, {.texture = kind.look.texture});
+      const auto db = [&](double x, double y, double z) {
+        return 20.0 * std::log10(static_cast<double>(texture.at(0.1 * grain_mm * glm::dvec3(x, y, z))));
+      };
+      for (int i = 0; i < kSide; i += 3)
+        for (int j = 0; j < kSide; j += 3)
+          for (int k = 0; k < kSide; k += 3, ++count) {
+            const double here = db(i, j, k);
+            power += std::pow(10.0, 0.1 * here);
+            sum += here, squares += here * here;
+            near += std::pow(here - db(i + 1.0, j, k), 2.0), far += std::pow(here - db(i + 25.0, j, k), 2.0);
+          }
+    }
+    EXPECT_NEAR(10.0 * std::log10(power / count), 0.0, 0.15) << kind.words;
+    const double variance = squares / count - std::pow(sum / count, 2.0);
+    EXPECT_NEAR(std::sqrt(variance), sd_db, 0.1 * sd_db) << kind.words;
+    EXPECT_LT(near / count, 0.1 * variance) << kind.words << ": a tenth of a grain away it is nearly the same";
+    EXPECT_NEAR(far / count, 2.0 * variance, 0.2 * variance) << kind.words << ": beyond two grains another";
+  }
 }
 
 }  // namespace
