@@ -18,6 +18,7 @@ namespace {
 constexpr int kDirections = 1500;
 // Room for a needle before it enters, this long and so far off the skin (design).
 constexpr double kNeedleOutsideMm = 75.0, kSkinStepMm = 3.0, kOffSkinMm = 3.0;
+constexpr double kOffCutMm = 10.0;     // a hand sways by millimetres, in the air most (design)
 constexpr double kMaxTableward = 0.3;  // the table is behind a supine patient (LPS +y), before a prone one
 // So many free ways are compared, evenly from the shortest to those longer by this (design): a longer way may be
 // seen better.
@@ -63,9 +64,8 @@ bool beyond_a_cut(const cases::MeshIndex& skin, const cases::Closest& near, cons
          glm::dot(p - near.point_lps_mm, skin.normal(near.triangle)) > kStraightAhead * near.distance_mm;
 }
 
-// Whether an entry keeps off the rim of a cut: a hand sways by millimetres.
+// Whether an entry keeps off the rim of a cut.
 bool off_every_cut(const cases::MeshIndex& skin, const glm::dvec3& entry, const glm::dvec3& outward) {
-  constexpr double kOffCutMm = 10.0;
   const auto [u, v] = base::perpendiculars(outward);
   for (int k = 0; k < 8; ++k) {
     const double angle = k * std::numbers::pi / 4.0;
@@ -82,7 +82,8 @@ bool free_outside(const cases::MeshIndex& skin, const glm::dvec3& target, const 
   for (double out_mm = kSkinStepMm; out_mm <= kNeedleOutsideMm; out_mm += kSkinStepMm) {
     const glm::dvec3 p = target + way.outward * (way.depth_mm + out_mm);
     const cases::Closest near = skin.closest(p);
-    if (near.distance_mm < std::min(kOffSkinMm, 0.25 * out_mm) || beyond_a_cut(skin, near, p)) return false;
+    const double off_mm = skin.cut(near.triangle) ? kOffCutMm : std::min(kOffSkinMm, 0.25 * out_mm);
+    if (near.distance_mm < off_mm || beyond_a_cut(skin, near, p)) return false;
   }
   return true;
 }

@@ -195,12 +195,57 @@ void settle_on_faces(cases::Mesh& mesh, const std::vector<std::uint8_t>& faces, 
   }
 }
 
+glm::dvec3 normal_of(const std::vector<glm::vec3>& vertices, const glm::uvec3& triangle) {
+  const glm::dvec3 a(vertices[triangle.x]), b(vertices[triangle.y]), c(vertices[triangle.z]);
+  return glm::cross(b - a, c - a);
+}
+
+// The vertices within a cap stay where they are, and where a corner of its rim is smoothed away over some of them
+// the cap lies double: a sheet in the air, under which all seems to be in the body. There the rim goes back.
+void unfold_caps(const std::vector<glm::vec3>& before, const std::vector<std::uint8_t>& faces, cases::Mesh& mesh) {
+  constexpr int kHalfWays = 4, kMostRounds = 100;
+  std::vector<glm::uvec3> caps;
+  for (const glm::uvec3& triangle : mesh.triangles)
+    if (is_cut(triangle, faces)) caps.push_back(triangle);
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<std::uint8_t> goes_back(before.size(), 0);
+    bool folded = false;
+    for (const glm::uvec3& triangle : caps) {
+      const glm::dvec3 was = normal_of(before, triangle);
+      if (!(glm::dot(was, was) > 0.0) || glm::dot(was, normal_of(mesh.vertices_lps_mm, triangle)) > 0.0) continue;
+      for (int corner = 0; corner < 3; ++corner) goes_back[triangle[corner]] = 1;
+      folded = true;
+    }
+    if (!folded) return;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (goes_back[i] != 0)
+        mesh.vertices_lps_mm[i] = round < kHalfWays ? 0.5F * (mesh.vertices_lps_mm[i] + before[i]) : before[i];
+  }
+}
+
+// Whether a cap lies double somewhere: a triangle of it, no sliver, faces into the volume.
+bool has_folded_cap(const cases::Mesh& mesh, const volume::Volume& volume) {
+  constexpr double kSliverMm2 = 1e-4;
+  const std::vector<std::uint8_t> faces = faces_of(mesh, volume);
+  const glm::dmat3 outward = glm::transpose(glm::inverse(glm::dmat3(volume.lps_from_voxel)));
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& triangle) {
+    const unsigned on = faces[triangle.x] & faces[triangle.y] & faces[triangle.z];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double out_mm2 = glm::dot(glm::normalize(outward[axis]), normal_of(mesh.vertices_lps_mm, triangle));
+      const bool low = (on & 1U << (2 * axis)) != 0, high = (on & 2U << (2 * axis)) != 0;
+      if ((low && out_mm2 > kSliverMm2) || (high && out_mm2 < -kSliverMm2)) return true;
+    }
+    return false;
+  });
+}
+
 // False: nothing could be taken away. On real skin VTK's usual 15° joins two sheets along an edge now and then, in
 // spite of PreserveTopology; from 45° on it did not. Should it ever, other ways are tried before none.
-bool take_away(double share, cases::Mesh& mesh) {
+bool take_away(double share, const volume::Volume& volume, cases::Mesh& mesh) {
   for (const auto& [part, feature_degrees] : {std::pair{1.0, 45.0}, std::pair{1.0, 90.0}, std::pair{0.7, 45.0}}) {
     cases::Mesh fewer = decimated(mesh, part * share, feature_degrees);
     if (!is_closed(fewer) || fewer.triangles.size() == mesh.triangles.size()) continue;
+    if (has_folded_cap(fewer, volume) && !has_folded_cap(mesh, volume)) continue;
     mesh = std::move(fewer);
     return true;
   }
@@ -208,14 +253,14 @@ bool take_away(double share, cases::Mesh& mesh) {
 }
 
 // A large share not at once: the more goes in one pass, the sooner two sheets are joined.
-void thin(double share, cases::Mesh& mesh) {
+void thin(double share, const volume::Volume& volume, cases::Mesh& mesh) {
   constexpr double kMostAtOnce = 0.7, kWorthIt = 0.02;
   if (!(share > 0.0)) return;
   const double wanted = (1.0 - share) * static_cast<double>(mesh.triangles.size());
-  bool took = take_away(std::min(share, kMostAtOnce), mesh);
+  bool took = take_away(std::min(share, kMostAtOnce), volume, mesh);
   while (took && share > kMostAtOnce) {
     const double further = 1.0 - wanted / static_cast<double>(mesh.triangles.size());
-    took = further > kWorthIt && take_away(std::min(further, kMostAtOnce), mesh);
+    took = further > kWorthIt && take_away(std::min(further, kMostAtOnce), volume, mesh);
   }
 }
 
@@ -232,19 +277,21 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
     p = glm::vec3(glm::dvec3(volume.lps_from_voxel * glm::dvec4(grid.voxel_at(glm::dvec3(p)), 1.0)));
   if (full.triangles.empty()) return no_body;
   CHECK(is_closed(full));
+  if (signed_volume_mm3(full) < 0.0)
+    for (glm::uvec3& triangle : full.triangles) std::swap(triangle.y, triangle.z);
 
   if (options.smoothing_iterations > 0) {
     const std::vector<std::uint8_t> faces = faces_of(full, volume);
+    const std::vector<glm::vec3> before = full.vertices_lps_mm;
     smooth_skin(full, faces, options.smoothing_iterations);
     settle_on_faces(full, faces, volume);
+    unfold_caps(before, faces, full);
   }
   cases::Mesh mesh = std::move(full);
   const auto before = static_cast<double>(mesh.triangles.size());
-  thin(options.decimate_share, mesh);
+  thin(options.decimate_share, volume, mesh);
   if (taken_share != nullptr) *taken_share = 1.0 - static_cast<double>(mesh.triangles.size()) / before;
   CHECK(is_closed(mesh));
-  if (signed_volume_mm3(mesh) < 0.0)
-    for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
   mark_cuts(volume, grid, options, mesh);
   return mesh;
 }

@@ -10,13 +10,18 @@
 
 namespace seldinger::casedb {
 
+constexpr int kSides = 4000;
+
 struct CutScore {
   std::size_t triangles = 0;
   double skin_mm2 = 0.0, cut_mm2 = 0.0;
   double false_skin_mm2 = 0.0;  // called skin, and farther than a voxel from the whole patient's
   double farthest_mm = 0.0;     // of what is called skin from the whole patient's
+  int wrong_sides = 0;          // of kSides places, taken for inside or outside the mesh and are not
   double lost_share = 0.0;      // of the whole patient's skin within the field, 10 mm and 4 voxels off its edge
 };
+
+int wrong_sides(const cases::MeshIndex& skin, const volume::Volume& field);
 
 // A CT before it is cropped: what its crops are held against.
 class WholePatient {

@@ -28,8 +28,8 @@ double most_lost_share(const volume::Crop& crop, bool dense_nook) {
 // With its figures, which docs/tissue.md sums up.
 void tell(const WholePatient& whole, const volume::Crop& crop, bool dense_nook) {
   const CutScore score = expect_true_skin(whole, crop, most_lost_share(crop, dense_nook));
-  std::printf("%-24s false skin %5.0f mm2 of %7.0f, lost %5.2f %%", crop.name.c_str(), score.false_skin_mm2,
-              score.skin_mm2, 100.0 * score.lost_share);
+  std::printf("%-24s false skin %5.0f mm2 of %7.0f, lost %5.2f %%, wrong sides %d", crop.name.c_str(),
+              score.false_skin_mm2, score.skin_mm2, 100.0 * score.lost_share, score.wrong_sides);
 }
 
 void expect_every_crop(const volume::Volume& volume, bool dense_nook = false) {
