@@ -19,6 +19,9 @@ constexpr double kLeastShare = 0.002;                 // of a slice: the corners
 constexpr double kOffVoxels = 1.5, kOffShare = 0.02;  // of the edge from its circle; share of the radius
 constexpr double kOnCircleShare = 0.95;               // of the edge
 constexpr double kMeasuredAirShare = 0.1;             // of the voxels within the edge, where padding is not kAirHu
+constexpr int kMostFillHu = -900;                     // what is filled with more is tissue to whoever reads it
+constexpr double kFillShare = 0.002;                  // of all voxels, among their like
+constexpr double kNoiseShare = 0.005;  // of all voxels: air of which each differs from those beside it
 constexpr int kFarInVoxels = 3, kRoomBelowHu = -900;
 constexpr std::size_t kLeastEdge = 20;
 
@@ -47,19 +50,52 @@ std::optional<Circle> circle_through(const std::vector<glm::dvec2>& points_mm) {
   return Circle{mean + middle, std::sqrt(glm::dot(middle, middle) + mean_square)};
 }
 
-// A slice's places that hold the lowest value in every slice and are joined to its border.
+// take(hu, of the four beside it) of each voxel of air that is no kAirHu, but for a slice's border.
+template <typename Take>
+void over_air(const Volume& volume, const Take& take) {
+  const glm::ivec3 n = volume.size_voxels;
+  const auto row = static_cast<std::size_t>(n.x);
+  for (int k = 0; k < n.z; ++k)
+    for (int j = 1; j + 1 < n.y; ++j)
+      for (int i = 1; i + 1 < n.x; ++i) {
+        const std::size_t at = volume.index(i, j, k);
+        if (volume.hu[at] <= kMostFillHu && volume.hu[at] > kAirHu)
+          take(volume.hu[at],
+               std::array{volume.hu[at - 1], volume.hu[at + 1], volume.hu[at - row], volume.hu[at + row]});
+      }
+}
+
+// What padding may be filled with: kAirHu, which readers make of it, and that value of air, if there is one, which
+// many voxels have among their like while this CT's own air has noise: what a program wrote where it had none.
+std::vector<std::int16_t> fills_of(const Volume& volume) {
+  std::array<std::size_t, kMostFillHu - kAirHu + 1> like{};
+  over_air(volume, [&](std::int16_t hu, const std::array<std::int16_t, 4>& beside) {
+    if (std::all_of(beside.begin(), beside.end(), [&](std::int16_t other) { return other == hu; }))
+      ++like[static_cast<std::size_t>(hu - kAirHu)];
+  });
+  std::vector<std::int16_t> fills{kAirHu};
+  const auto most = std::max_element(like.begin(), like.end());
+  const auto fill = static_cast<std::int16_t>(kAirHu + (most - like.begin()));
+  const auto all = static_cast<double>(volume.hu.size());
+  if (static_cast<double>(*most) < kFillShare * all) return fills;
+  std::size_t noise = 0;  // not at an edge of tissue or of the fill, where values lie between
+  over_air(volume, [&](std::int16_t hu, const std::array<std::int16_t, 4>& beside) {
+    const auto is_other = [&](std::int16_t other) { return other != fill && other != hu && other <= kMostFillHu; };
+    noise += hu != fill && std::all_of(beside.begin(), beside.end(), is_other) ? 1 : 0;
+  });
+  if (static_cast<double>(noise) >= kNoiseShare * all) fills.push_back(fill);
+  return fills;
+}
+
+// A slice's places that hold the same value in every slice and are joined to its border.
 class Surround {
  public:
-  Surround(const Volume& volume, const AxialSlices& slices)
-      : volume_(volume),
-        slices_(slices),
-        lowest_(*std::min_element(volume.hu.begin(), volume.hu.end())),
-        constant_(places(), 1),
-        joined_(places(), 0) {
+  Surround(const Volume& volume, const AxialSlices& slices, std::int16_t fill)
+      : volume_(volume), slices_(slices), fill_(fill), constant_(places(), 1), joined_(places(), 0) {
     for (int slice = 0; slice < slices.count(); ++slice)
       for (int y = 0; y < slices.height(); ++y)
         for (int x = 0; x < slices.width(); ++x)
-          if (volume.hu[slices.voxel(slice, x, y)] != lowest_) constant_[at(x, y)] = 0;
+          if (volume.hu[slices.voxel(slice, x, y)] != fill_) constant_[at(x, y)] = 0;
     for (int x = 0; x < slices.width(); ++x) reach(x, 0), reach(x, slices.height() - 1);
     for (int y = 0; y < slices.height(); ++y) reach(0, y), reach(slices.width() - 1, y);
     while (!open_.empty()) {
@@ -68,8 +104,6 @@ class Surround {
       for (const glm::ivec2& q : around(p)) reach(q.x, q.y);
     }
   }
-
-  int lowest() const { return lowest_; }
 
   bool is_circle() const {
     const auto count = static_cast<double>(std::count(joined_.begin(), joined_.end(), 1));
@@ -87,13 +121,12 @@ class Surround {
           for (int slice = 0; holds(in.x, in.y) && slice < slices_.count(); ++slice) {
             ++within;
             const int hu = volume_.hu[slices_.voxel(slice, in.x, in.y)];
-            air += hu < kRoomBelowHu && hu > lowest_ ? 1 : 0;
+            air += hu < kRoomBelowHu && hu != fill_ ? 1 : 0;
           }
         }
       }
     if (edge_mm.size() < kLeastEdge) return false;
-    if (lowest_ != kAirHu && static_cast<double>(air) < kMeasuredAirShare * static_cast<double>(within))
-      return false;
+    if (fill_ != kAirHu && static_cast<double>(air) < kMeasuredAirShare * static_cast<double>(within)) return false;
     const auto circle = circle_through(edge_mm);
     const double voxel_mm = std::max(slices_.spacing_mm().x, slices_.spacing_mm().y);
     const auto on = [&](const glm::dvec2& p) {
@@ -104,12 +137,10 @@ class Surround {
                          kOnCircleShare * static_cast<double>(edge_mm.size());
   }
 
-  std::vector<std::uint8_t> mask() const {
-    std::vector<std::uint8_t> made(volume_.hu.size());
+  void add_to(std::vector<std::uint8_t>& padding) const {
     for (int slice = 0; slice < slices_.count(); ++slice)
       for (int y = 0; y < slices_.height(); ++y)
-        for (int x = 0; x < slices_.width(); ++x) made[slices_.voxel(slice, x, y)] = joined_[at(x, y)];
-    return made;
+        for (int x = 0; x < slices_.width(); ++x) padding[slices_.voxel(slice, x, y)] |= joined_[at(x, y)];
   }
 
  private:
@@ -131,7 +162,7 @@ class Surround {
 
   const Volume& volume_;
   const AxialSlices& slices_;
-  int lowest_;
+  std::int16_t fill_;
   std::vector<std::uint8_t> constant_, joined_;
   std::vector<glm::ivec2> open_;
 };
@@ -141,11 +172,14 @@ class Surround {
 std::vector<std::uint8_t> padding_of(const Volume& volume) {
   if (volume.hu.empty()) return {};
   const AxialSlices slices(volume);
-  const Surround surround(volume, slices);
-  const bool circle = surround.is_circle();
-  std::vector<std::uint8_t> padding = circle ? surround.mask() : std::vector<std::uint8_t>(volume.hu.size(), 0);
-  const bool planes = surround.lowest() == kAirHu && add_padding_planes(volume, padding);
-  return circle || planes ? padding : std::vector<std::uint8_t>();
+  std::vector<std::uint8_t> padding(volume.hu.size(), 0);
+  bool any = false;
+  for (const std::int16_t fill : fills_of(volume)) {
+    const Surround surround(volume, slices, fill);
+    if (surround.is_circle()) surround.add_to(padding), any = true;
+    any |= add_padding_planes(volume, fill, padding);
+  }
+  return any ? padding : std::vector<std::uint8_t>();
 }
 
 }  // namespace seldinger::volume

@@ -10,10 +10,10 @@
 namespace seldinger::volume {
 
 // One byte per voxel, 1 = beyond the circle, or behind a plane (padding_planes.h). Empty where the
-// volume shows neither. A circle: what is around it has the
-// lowest value in every slice, and its edge is one circle to within a voxel and a half (2 % of the radius where
-// that is less). The outline of a round body in air of one value is none: padding is kAirHu, or some air was
-// measured within.
+// volume shows neither. What is there is kAirHu, or one value of air that a program filled it with while the CT's
+// own air has noise. A circle: what is around it has that value in every slice, and its edge is one circle to
+// within a voxel and a half (2 % of the radius where that is less). The outline of a round body in air of one value
+// is none: padding is kAirHu, or some air was measured within.
 std::vector<std::uint8_t> padding_of(const Volume& volume);
 
 }  // namespace seldinger::volume

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kLeastMm2 = 1000.0;
 constexpr double kMostOfSurface = 0.6;  // of tissue against air: more, and the room itself is gone
-constexpr int kSolidVoxels = 3;         // of kAirHu one behind the other: noise in air makes no three
-constexpr double kBehindShare = 0.98;   // of what lies a little behind a plane is kAirHu
+constexpr int kSolidVoxels = 3;         // of the fill one behind the other: noise in air makes no three
+constexpr double kBehindShare = 0.98;   // of what lies a little behind a plane is the fill
 constexpr int kMostPlanes = 4, kTries = 400;
 constexpr std::size_t kMostAsked = 4000;
 
@@ -34,7 +34,8 @@ struct Plane {
 
 class Jumps {
  public:
-  Jumps(const Volume& volume, const std::vector<std::uint8_t>& padding) : volume_(volume), padding_(padding) {
+  Jumps(const Volume& volume, std::int16_t fill, const std::vector<std::uint8_t>& padding)
+      : volume_(volume), fill_(fill), padding_(padding) {
     const glm::ivec3 n = volume.size_voxels;
     const double face_mm2 = std::cbrt(volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z);
     each_mm2_ = face_mm2 * face_mm2;
@@ -102,7 +103,7 @@ class Jumps {
     if (padding_[volume_.index(beyond.x, beyond.y, beyond.z)] != 0) return;
     for (int i = 1; i <= kSolidVoxels; ++i) {
       const glm::ivec3 p = from + i * step;
-      if (holds(p) && volume_.at(p.x, p.y, p.z) != kAirHu) return;
+      if (holds(p) && volume_.at(p.x, p.y, p.z) != fill_) return;
     }
     jumps_.push_back({(glm::dvec3(from) + glm::dvec3(step) / 2.0) * volume_.spacing_mm, beyond});
   }
@@ -120,24 +121,26 @@ class Jumps {
             glm::round((jump.place_mm + plane.normal * by * 2.0 * off_mm(plane)) / volume_.spacing_mm));
         if (!holds(p)) continue;
         ++behind;
-        empty += volume_.at(p.x, p.y, p.z) == kAirHu ? 1 : 0;
+        empty += volume_.at(p.x, p.y, p.z) == fill_ ? 1 : 0;
       }
     return static_cast<double>(empty) >= kBehindShare * static_cast<double>(behind);
   }
 
   const Volume& volume_;
+  std::int16_t fill_;
   const std::vector<std::uint8_t>& padding_;
   double each_mm2_ = 0.0;
   std::size_t surface_ = 0;
   std::vector<Jump> jumps_;
 };
 
-void add_behind(const Volume& volume, const Plane& plane, double off_mm, std::vector<std::uint8_t>& padding) {
+void add_behind(const Volume& volume, std::int16_t fill, const Plane& plane, double off_mm,
+                std::vector<std::uint8_t>& padding) {
   for (int k = 0; k < volume.size_voxels.z; ++k)
     for (int j = 0; j < volume.size_voxels.y; ++j)
       for (int i = 0; i < volume.size_voxels.x; ++i) {
         const std::size_t at = volume.index(i, j, k);
-        if (volume.hu[at] == kAirHu &&
+        if (volume.hu[at] == fill &&
             glm::dot(plane.normal, glm::dvec3(i, j, k) * volume.spacing_mm) > plane.at_mm - off_mm)
           padding[at] = 1;
       }
@@ -145,14 +148,14 @@ void add_behind(const Volume& volume, const Plane& plane, double off_mm, std::ve
 
 }  // namespace
 
-bool add_padding_planes(const Volume& volume, std::vector<std::uint8_t>& padding) {
-  Jumps jumps(volume, padding);
+bool add_padding_planes(const Volume& volume, std::int16_t fill, std::vector<std::uint8_t>& padding) {
+  Jumps jumps(volume, fill, padding);
   if (!jumps.enough()) return false;
   base::Rng rng(1);
   bool any = false;
   for (int i = 0; i < kMostPlanes; ++i)
     if (const auto plane = jumps.take_largest(rng)) {
-      add_behind(volume, *plane, jumps.off_mm(*plane), padding);
+      add_behind(volume, fill, *plane, jumps.off_mm(*plane), padding);
       any = true;
     }
   return any;

@@ -8,10 +8,10 @@
 
 namespace seldinger::volume {
 
-// Sets the voxels of kAirHu behind such planes in `padding` (sized as the volume, 0 or 1) and tells whether there
-// are any. A plane is one where tissue ends from one voxel to the next in kAirHu through and through, over more
+// Sets the voxels of `fill` behind such planes in `padding` (sized as the volume, 0 or 1) and tells whether there
+// are any. A plane is one where tissue ends from one voxel to the next in `fill` through and through, over more
 // than 10 cm². Where most of the body ends so, a program has taken the room away, and what is left is skin: no
 // plane.
-bool add_padding_planes(const Volume& volume, std::vector<std::uint8_t>& padding);
+bool add_padding_planes(const Volume& volume, std::int16_t fill, std::vector<std::uint8_t>& padding);
 
 }  // namespace seldinger::volume

@@ -110,7 +110,7 @@ std::vector<Crop> crops(const std::vector<std::string>& names) {
   return chosen;
 }
 
-Volume cropped(const Volume& whole, const std::vector<std::uint8_t>& body, const Crop& crop) {
+Volume cropped(const Volume& whole, const std::vector<std::uint8_t>& body, const Crop& crop, std::int16_t fill) {
   const VoxelBox box = box_of(whole, body);
   const glm::dvec3 extent(box.high - box.low + 1);
   glm::ivec3 low(0), high = whole.size_voxels - 1;
@@ -136,7 +136,7 @@ Volume cropped(const Volume& whole, const std::vector<std::uint8_t>& body, const
         const glm::dvec3 off_mm = (glm::dvec3(from) - middle) * whole.spacing_mm;
         const bool out = (crop.circle && std::hypot(off_mm.x, off_mm.y) > radius_mm) ||
                          (crop.beyond && glm::dot(off_mm, way) > reach_mm);
-        made.hu[made.index(i, j, k)] = out ? kAirHu : whole.at(from.x, from.y, from.z);
+        made.hu[made.index(i, j, k)] = out ? fill : whole.at(from.x, from.y, from.z);
       }
   return made;
 }

@@ -28,7 +28,8 @@ std::vector<Crop> crops();
 std::vector<Crop> crops(const std::vector<std::string>& names);
 
 // `whole` with `body` as its mask. What is cut off leaves the volume; padding is kAirHu.
-Volume cropped(const Volume& whole, const std::vector<std::uint8_t>& body, const Crop& crop);
+Volume cropped(const Volume& whole, const std::vector<std::uint8_t>& body, const Crop& crop,
+               std::int16_t fill = kAirHu);
 
 // By averaging whole voxels to about spacing_mm along each axis; finer ones stay.
 Volume coarser(const Volume& volume, double spacing_mm);

@@ -27,8 +27,8 @@ Facet facet_of(const cases::Mesh& mesh, const glm::uvec3& t) {
   return {(a + b + c) / 3.0, 0.5 * glm::length(glm::cross(b - a, c - a))};
 }
 
-// Whether all of the neighbourhood was measured; padding is kAirHu through and through.
-bool well_within(const volume::Volume& field, const glm::dvec3& index) {
+// Whether all of the neighbourhood was measured; padding is the fill through and through.
+bool well_within(const volume::Volume& field, const glm::dvec3& index, std::int16_t fill) {
   const glm::dvec3 mm = field.spacing_mm;
   const glm::dvec3 off = std::max(kOffMm, kOffVoxels * std::max({mm.x, mm.y, mm.z})) / mm;
   if (!volume::inside(field, index - off) || !volume::inside(field, index + off)) return false;
@@ -39,7 +39,7 @@ bool well_within(const volume::Volume& field, const glm::dvec3& index) {
         if (x == 0 && y == 0 && z == 0) continue;
         const glm::dvec3 at = index + off * glm::normalize(glm::dvec3(x, y, z));
         const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::round(at)), glm::ivec3(0), field.size_voxels - 1);
-        if (field.at(voxel.x, voxel.y, voxel.z) == volume::kAirHu) return false;
+        if (field.at(voxel.x, voxel.y, voxel.z) == fill) return false;
       }
   return true;
 }
@@ -82,7 +82,7 @@ WholePatient::WholePatient(const volume::Volume& volume) : volume_(volume), body
   index_ = cases::MeshIndex(skin_);
 }
 
-CutScore WholePatient::score(const cases::Mesh& cut, const volume::Volume& field) const {
+CutScore WholePatient::score(const cases::Mesh& cut, const volume::Volume& field, std::int16_t fill) const {
   CutScore score;
   score.triangles = cut.triangles.size();
   const double voxel_mm = std::max({field.spacing_mm.x, field.spacing_mm.y, field.spacing_mm.z});
@@ -104,7 +104,8 @@ CutScore WholePatient::score(const cases::Mesh& cut, const volume::Volume& field
   near = 0;
   for (std::size_t i = 0; i < skin_.triangles.size(); ++i) {
     const Facet facet = facet_of(skin_, skin_.triangles[i]);
-    if (skin_.cut[i] != 0 || !well_within(field, glm::dvec3(voxel_from_lps * glm::dvec4(facet.middle_lps_mm, 1.0))))
+    if (skin_.cut[i] != 0 ||
+        !well_within(field, glm::dvec3(voxel_from_lps * glm::dvec4(facet.middle_lps_mm, 1.0)), fill))
       continue;
     wanted += facet.area_mm2;
     const cases::Closest closest = cut_index.closest(facet.middle_lps_mm, near);
@@ -115,13 +116,14 @@ CutScore WholePatient::score(const cases::Mesh& cut, const volume::Volume& field
   return score;
 }
 
-CutScore expect_true_skin(const WholePatient& whole, const volume::Crop& crop, double most_lost_share) {
+CutScore expect_true_skin(const WholePatient& whole, const volume::Crop& crop, double most_lost_share,
+                          std::int16_t fill) {
   constexpr double kRimShare = 0.003, kRimMm2 = 1000.0;  // where skin meets a cut a triangle is no whole one's
-  const volume::Volume field = volume::cropped(whole.volume(), whole.body(), crop);
+  const volume::Volume field = volume::cropped(whole.volume(), whole.body(), crop, fill);
   const auto skin = skin_surface(field);
   EXPECT_TRUE(skin) << crop.name;
   if (!skin) return {};
-  const CutScore score = whole.score(*skin, field);
+  const CutScore score = whole.score(*skin, field, fill);
   EXPECT_LE(score.false_skin_mm2, std::max(kRimShare * score.skin_mm2, kRimMm2))
       << crop.name << ": " << score.farthest_mm << " mm";
   EXPECT_LE(score.lost_share, most_lost_share) << crop.name;

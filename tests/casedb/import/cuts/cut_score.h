@@ -27,7 +27,8 @@ int wrong_sides(const cases::MeshIndex& skin, const volume::Volume& field);
 class WholePatient {
  public:
   explicit WholePatient(const volume::Volume& volume);
-  CutScore score(const cases::Mesh& skin, const volume::Volume& field) const;  // of a crop
+  // Of a crop; beyond what was measured it holds `fill`.
+  CutScore score(const cases::Mesh& skin, const volume::Volume& field, std::int16_t fill) const;
   const volume::Volume& volume() const { return volume_; }
   const std::vector<std::uint8_t>& body() const { return body_; }
 
@@ -39,6 +40,7 @@ class WholePatient {
 };
 
 // A test's: none of what is called skin lies off the whole patient's, and no more than this share of that is lost.
-CutScore expect_true_skin(const WholePatient& whole, const volume::Crop& crop, double most_lost_share = 0.01);
+CutScore expect_true_skin(const WholePatient& whole, const volume::Crop& crop, double most_lost_share = 0.01,
+                          std::int16_t fill = volume::kAirHu);
 
 }  // namespace seldinger::casedb

@@ -109,6 +109,17 @@ TEST(CutSkin, OfRealCtIsThatOfTheWhole) {
     expect_true_skin(whole, crop);
 }
 
+// A program that resamples or cuts a CT fills it with −1000 as often as with what scanners write.
+TEST(CutSkin, IsThatOfTheWholeWhateverTheFieldIsFilledWith) {
+  const WholePatient whole(quick_torso({{}, 3, volume::TorsoPhase::none, 12.0, false}));
+  for (const std::int16_t fill : {std::int16_t{-1000}, std::int16_t{-1024}, std::int16_t{-990}})
+    for (const volume::Crop& crop :
+         volume::crops({"circle", "circle and left", "oblique left front", "oblique head"})) {
+      SCOPED_TRACE(fill);
+      expect_true_skin(whole, crop, 0.01, fill);
+    }
+}
+
 TEST(CutSkin, WhereItEndsIsTold) {
   const volume::Volume coarse = volume::coarser(torso(), 4.0);
   const auto told = [&](const char* name) {
