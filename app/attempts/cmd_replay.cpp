@@ -1,5 +1,6 @@
 // replay.
 #include <cstdio>
+#include <filesystem>
 
 #include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
@@ -51,6 +52,8 @@ base::Result<Verdict> draw(casedb::Library& library, const casedb::AttemptRow& a
 
 int run_replay(const Arguments& arguments) {
   const double rate_hz = arguments.number("--rate-hz", kDefaultReplayHz, 1.0, kMostReplayHz);
+  if (const std::string out = arguments.text("--out"); std::filesystem::path(out).has_extension())
+    file_of("--out", out, {".html", ".mp4"});  // a folder's name has no ending
   auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto attempt = casedb::find_attempt(*library, arguments.positional(0));

@@ -38,8 +38,8 @@ std::string privacy_text(const casedb::CaseRow& row) {
               ? "none, confirmed by person " + *row.burned_in_checked->person_id +
                     (row.burned_in_checked->by_operator ? " (entered by the operator)" : "")
               : "none, confirmed at the command line";
-  text +=
-      "\nstayed outside: " + std::to_string(all) + " elements of " + std::to_string(row.dropped.size()) + " kinds";
+  text += "\nstayed outside: " + std::to_string(all) + (all == 1 ? " element" : " elements") + " of " +
+          std::to_string(row.dropped.size()) + (row.dropped.size() == 1 ? " kind" : " kinds");
   for (const auto& [reason, count] : by_reason) text += ", " + std::to_string(count) + " " + reason;
   return text + "\n";
 }

@@ -277,13 +277,15 @@ int run_demo_cases(const Arguments& arguments) {
   MadeFolder folder(library_folder(arguments));
   auto library = casedb::Library::open_or_create(folder.path());
   if (!library) return refuse(error_of_library(arguments, library.error()));
-  auto passwords = add_missing_accounts(*library, {{kAuthor, casedb::Role::mentor},
-                                                   {kReviewer, casedb::Role::mentor},
-                                                   {kDirector, casedb::Role::director},
-                                                   {kTrainee, casedb::Role::trainee}});
+  const std::vector<std::pair<const char*, casedb::Role>> accounts = {{kAuthor, casedb::Role::mentor},
+                                                                      {kReviewer, casedb::Role::mentor},
+                                                                      {kDirector, casedb::Role::director},
+                                                                      {kTrainee, casedb::Role::trainee}};
+  auto passwords = add_missing_accounts(*library, accounts);
   if (!passwords) return refuse(passwords.error());
   answer.passwords = std::move(*passwords);
   if (!arguments.has("--json")) print_accounts(answer.passwords);
+  if (const auto made = make_demo_cohort(*library, accounts); !made) return refuse(made.error());
   const auto add = [&](const std::vector<DemoCase>& wanted, const char* title, const char* hits,
                        std::vector<DemoCaseAnswer>& made) -> base::Result<void> {
     auto all = make_all(*library, wanted, sources, hits);

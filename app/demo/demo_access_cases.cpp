@@ -39,7 +39,7 @@ DemoCase vessel(int number, const char* title, DemoSource source, const char* in
   made.setting.modality = cases::Modality::ultrasound;
   made.setting.probe_is_chosen = true;
   made.setting.approach = cases::Approach::out_of_plane;
-  made.setting.instrument = access_needle(18);
+  made.setting.instrument = vessel_needle(18);
   made.setting.clinic = {1.1, 210.0, "", indication, false};
   made.setting.rule =
       rule_of({"hit >= 1", off_wall_mm, between_sights_mm, "skin_punctures <= 1", "probe_suits >= 1"},
@@ -53,7 +53,7 @@ DemoCase vein_of_a_child() {
                          "longest_advance_between_sights <= 5", "back_wall_dist >= 1");
   constexpr double kChild = 0.7;
   made.setting.difficulty = casedb::Difficulty::hard;
-  made.setting.instrument = access_needle(21);
+  made.setting.instrument = vessel_needle(21);
   made.lesions = {sphere_form(placed(kChild, -1.0, {kVein}).front(), kChild * 5.5, 12.0)};
   made.structures = {femoral_artery(kChild, -1.0, StructureRule::critical),
                      femoral_vein(kChild, -1.0, StructureRule::target), labelled("nerve", StructureRule::critical),

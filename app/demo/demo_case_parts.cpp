@@ -18,6 +18,12 @@ cases::Instrument access_needle(int gauge) {
   return needle;
 }
 
+cases::Instrument vessel_needle(int gauge) {
+  cases::Instrument needle = access_needle(gauge);
+  needle.length_mm = gauge >= 21 ? 40.0 : 70.0;
+  return needle;
+}
+
 cases::LesionForm sphere_form(const glm::dvec3& center_lps_mm, double radius_mm, double hu) {
   cases::LesionForm form;
   form.center_lps_mm = center_lps_mm;
@@ -114,7 +120,7 @@ DemoCase jugular_vein() {
   made.setting.modality = cases::Modality::ultrasound;
   made.setting.probe_is_chosen = true;
   made.setting.approach = cases::Approach::out_of_plane;
-  made.setting.instrument = access_needle(18);
+  made.setting.instrument = vessel_needle(18);
   made.setting.clinic = {1.2, 150.0, "", "central venous access", false};
   made.setting.rule = rule_of({"hit >= 1", "back_wall_dist >= 2", "longest_advance_between_sights <= 8",
                                "skin_punctures <= 1", "probe_suits >= 1"},

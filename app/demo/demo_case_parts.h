@@ -8,7 +8,10 @@
 namespace seldinger::app {
 
 cases::Instrument core_needle();  // 18 G: throw 22, notch 18, dead tip 4 mm
+// Long enough for a kidney of an obese adult.
 cases::Instrument access_needle(int gauge);
+// For a vessel under the skin: 7 cm, of a micropuncture set for children (21 G) 4 cm (catalogues; recalled).
+cases::Instrument vessel_needle(int gauge);
 
 cases::LesionForm sphere_form(const glm::dvec3& center_lps_mm, double radius_mm, double hu);
 // A tumour, as the pictures draw it.

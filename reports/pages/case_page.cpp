@@ -95,7 +95,7 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
 
   add_table(html, "To pass");
   for (const RuleLine& one : rule_lines(row.rule))
-    add_fact(html, one.metric, one.bound + (one.critical ? "; missing it is a critical error" : ""));
+    add_fact(html, one.metric, one.bound + (one.critical ? "; not meeting this is a critical error" : ""));
   // Until a director sets one it is nobody's standard (casedb/grading/standards.h).
   add_fact(html, "Standing",
            row.rule.criteria.empty() ? ""

@@ -36,10 +36,11 @@ void add_row(Html& html, const CohortView& view) {
 std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> cohorts) {
   Html html;
   html.raw(
-          "<h1>Cohorts</h1>\n<p class=\"sub\">Your own by name; for others counts only, as they were at the end of "
-          "a week, once at least ")
+          "<h1>Cohorts</h1>\n<p class=\"sub\">The learners of your own cohorts are shown by name. Of other "
+          "cohorts you see only counts, as they were at the end of the last week, and only once there are at "
+          "least ")
       .text(std::to_string(casedb::kSmallestCell))
-      .raw(" people have made them, or their last change.</p>\n");
+      .raw(" people behind them.</p>\n");
   if (cohorts.empty()) {
     html.raw(
         "<p>There is no cohort for you to see. Whoever runs this library adds one with <code>seldinger cohort "

@@ -101,7 +101,7 @@ std::string me_page(const Visitor& visitor, const AboutMe& about, const Told& to
       "<section>\n<h2>Consent to research</h2>\n<p class=\"note\">You decide freely. Your training is the same "
       "whatever you answer, and you can withdraw at any time without giving a reason. Researchers see a pseudonym, "
       "never your name.</p>\n");
-  if (about.consents.empty()) html.raw("<p>Nothing asks for your consent.</p>\n");
+  if (about.consents.empty()) html.raw("<p>No study is asking for your consent.</p>\n");
   const auto any = [&](const auto& is) { return std::any_of(about.consents.begin(), about.consents.end(), is); };
   const bool to_library = any([](const casedb::Consent& one) { return !one.study_id && one.stands(); });
   for (const casedb::Consent& one : about.consents) {

@@ -105,6 +105,10 @@ TEST(ReplayOutput, FramesAtTheRateAsked) {
   for (const char* rate : {"0", "61", "nan"})
     EXPECT_EQ(made().command("replay " + id + " --out " + made().at("f") + " --rate-hz " + rate).exit_code, 2);
   EXPECT_FALSE(fs::exists(made().at("f")));
+  const auto mistyped = made().command("replay " + id + " --out " + made().at("sheet.htm"));
+  EXPECT_EQ(mistyped.exit_code, 2);
+  EXPECT_NE(mistyped.err.find("--out ends in .html or .mp4, unlike"), std::string::npos) << mistyped.err;
+  EXPECT_FALSE(fs::exists(made().at("sheet.htm")));
 }
 
 // A stand-in that keeps what it is given, under the name that it is told.

@@ -27,7 +27,7 @@ TEST(Cases, APageNamesWhatItHoldsAndEscapesIt) {
   EXPECT_THAT(page, Not(HasSubstr("<script>x")));
   EXPECT_THAT(page, Not(HasSubstr("<b>")));
   EXPECT_THAT(page, HasSubstr("Target hit</th><td>yes</td>"));
-  EXPECT_THAT(page, HasSubstr("at least 8 mm; missing it is a critical error"));
+  EXPECT_THAT(page, HasSubstr("at least 8 mm; not meeting this is a critical error"));
   EXPECT_THAT(page, HasSubstr("provisional"));
   EXPECT_THAT(page, HasSubstr("draft, version 1"));
   EXPECT_THAT(browser.get("/cases/" + kDraftCase + "/checks.json").body, HasSubstr("\"holds\":false"));

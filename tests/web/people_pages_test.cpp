@@ -76,7 +76,7 @@ TEST(People, AStudyThatTheLibrarysConsentCoversCanBeRefused) {
   FakeSite fake;
   FakeBrowser browser(*fake.site);
   browser.log_in_as(Role::trainee);
-  EXPECT_THAT(browser.get("/me").body, HasSubstr("Nothing asks for your consent."));
+  EXPECT_THAT(browser.get("/me").body, HasSubstr("No study is asking for your consent."));
   casedb::Consent of_library, of_study;
   of_library.text_id = "text-1";
   of_library.body_hash = of_study.body_hash = std::string(64, 'e');

@@ -176,7 +176,7 @@ void ActsPanel::draw_planned_depth(const cases::Case& scene) {
   auto planned_mm = static_cast<float>(planned_mm_);
   ImGui::SetNextItemWidth(scaled(kPlannedPx));
   if (ImGui::SliderFloat("##planned", &planned_mm, 0.0F, static_cast<float>(scene.instrument.length_mm),
-                         planned_mm_ > 0.0 ? "needle in by %.0f mm" : "needle in by: not set",
+                         planned_mm_ > 0.0 ? "planned depth %.0f mm" : "planned depth: not set",
                          ImGuiSliderFlags_AlwaysClamp))
     planned_mm_ = std::round(static_cast<double>(planned_mm));
   note_item("planned depth");

@@ -88,7 +88,7 @@ constexpr std::array<LeftOut, 13> kReasons = {{
     {DicomKind::other_object, "not_ct", "other DICOM objects than CT images"},
     {DicomKind::no_image, "no_image", "DICOM without an image"},
     {DicomKind::directory, "dicomdir", "lists of files (DICOMDIR), which are not followed: the folder is read"},
-    {DicomKind::not_dicom, "no_dicom", "no DICOM"},
+    {DicomKind::not_dicom, "no_dicom", "not DICOM"},
 }};
 constexpr std::size_t kMayBeSlices = 5;  // of these, the first ones
 
@@ -151,7 +151,7 @@ base::Result<Series> chosen_series(std::vector<Series> all, const std::optional<
   }
   base::Error error = wanted ? base::Error{"no_series", "there is no such CT series"}
                              : base::Error{"several_series", "there are " + std::to_string(all.size()) +
-                                                                 " CT series: choose one by its number"};
+                                                                 " CT series: choose one with --series N"};
   for (std::size_t i = 0; i < all.size(); ++i) error.findings.push_back({"series", series_text(i + 1, all[i])});
   return error;
 }
@@ -179,7 +179,7 @@ void judge_others(const Found& found, const Series& series, Problems& problems,
   const auto alike =
       static_cast<std::size_t>(std::count(found.other_endings.begin(), found.other_endings.end(), ending));
   if (alike > 0 && !ending.empty())
-    warnings.push_back({"not_dicom", "named like the slices, and no DICOM: " + count_text(alike, "file") +
+    warnings.push_back({"not_dicom", "named like the slices, but not DICOM: " + count_text(alike, "file") +
                                          ". Were they slices, the series is not whole"});
 }
 
