@@ -60,7 +60,7 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
   auto& [classes, echogenicity] = *found;
   imaging::UltrasoundView view = of_scene.view;
   imaging::Inserted inserted = scene.inserted;
-  imaging::settle_lesions(volume, classes, echogenicity, inserted.lesions);
+  imaging::settle_lesions(volume, classes, echogenicity, inserted.lesions, view.sight_law);
   if (!inserted.needle) inserted.needle = imaging::needle_pose(scene.instrument, {}, {0.0, 0.0, 1.0});
   for (const cases::PoseSample& pose : recording.poses) {
     view.origin_lps_mm = pose.probe_origin_lps_mm;

@@ -73,6 +73,11 @@ base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, co
 
 }  // namespace
 
+bool shows_portal_walls(const Scene& scene) noexcept {
+  const auto* view = scene.view ? std::get_if<UltrasoundSceneView>(&*scene.view) : nullptr;
+  return view == nullptr || view->view.sight_law >= cases::SightLaw::material;
+}
+
 base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library) {
   imaging::PortalLumen portal(volume);
   auto classes = classes_of(scene, volume, library, portal);
@@ -81,7 +86,8 @@ base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& vo
   SceneTissue tissue{std::move(*classes), {}};
   tissue.echogenicity = imaging::echogenicity(volume, tissue.classes);
   imaging::show_organs(volume, tissue.classes, tissue.echogenicity);
-  imaging::show_portal_walls(volume, tissue.classes, portal.voxels(), tissue.echogenicity);
+  if (shows_portal_walls(scene))
+    imaging::show_portal_walls(volume, tissue.classes, portal.voxels(), tissue.echogenicity);
   return tissue;
 }
 

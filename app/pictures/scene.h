@@ -89,6 +89,7 @@ struct SceneTissue {
   std::vector<volume::TissueClass> classes;
   std::vector<std::uint8_t> echogenicity;
 };
+bool shows_portal_walls(const Scene& scene) noexcept;  // by its view's law of sight
 base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library);
 
 // The scene's volume. A case needs `library`. Refused as import refuses; `no_library`.

@@ -281,7 +281,7 @@ base::Result<ScenePainter> ScenePainter::of(const Scene& scene, const std::strin
 }
 
 base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
-  if (tissue_) return {};
+  if (tissue_ && tissue_->portal_walls == shows_portal_walls(scene)) return {};
   auto found = tissue_of(scene, volume_, library_);
   if (!found) return found.error();
   auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
@@ -297,7 +297,9 @@ base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
     trunk = tissue::breath_region(patient);
     wall = tissue::cavity_wall(patient);
   }
-  tissue_ = Tissue{std::move(found->classes), std::move(found->echogenicity), std::move(index), trunk, wall};
+  tissue_ = Tissue{std::move(found->classes), std::move(found->echogenicity),
+                   std::move(index),          trunk,
+                   shows_portal_walls(scene), wall};
   return {};
 }
 
@@ -344,8 +346,9 @@ base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::st
     render_xray(volume_, *xray, scene.inserted, picture);
   } else {
     imaging::Inserted inserted = scene.inserted;
-    imaging::settle_lesions(volume_, tissue_->classes, tissue_->echogenicity, inserted.lesions);
     const auto& view = std::get<UltrasoundSceneView>(*scene.view);
+    imaging::settle_lesions(volume_, tissue_->classes, tissue_->echogenicity, inserted.lesions,
+                            view.view.sight_law);
     const tissue::Displacement displacement = displacement_of(scene);
     paint_ultrasound(view, inserted, displacement, picture);
     if (view.console.colour_mm_s > 0.0)

@@ -48,7 +48,8 @@ class ScenePainter {
     std::vector<std::uint8_t> echogenicity;
     cases::MeshIndex skin;
     std::optional<tissue::BreathRegion> trunk;  // nothing without a body
-    std::optional<tissue::CavityWall> wall;     // where it is told
+    bool portal_walls;
+    std::optional<tissue::CavityWall> wall;  // where it is told
   };
   ScenePainter(volume::Volume volume, std::string library)
       : volume_(std::move(volume)), library_(std::move(library)) {}

@@ -30,7 +30,6 @@ using glm::mat4;
 using glm::max;
 using glm::min;
 using glm::vec4;
-using std::exp;
 using std::floor;
 using std::sqrt;
 using uint = std::uint32_t;

@@ -35,9 +35,9 @@ SHARED vec4 us_lattice_noise(uint seed, float x, float y, float z) {
   return vec4(re, im, sqrt(square_x * square_y * square_z), 0.0F);
 }
 
-// What the speckle of a textured tissue is times at a place: blotches of `grains_per_mm` that spread by `log_sd` (of
-// the amplitude's natural log), so that the mean square stays where they are normal.
-SHARED float us_texture(uint key, float grains_per_mm, float log_sd, float x_mm, float y_mm, float z_mm) {
+// A texture at a place: the natural logarithm of the factor on the speckle's amplitude. Blotches of `grains_per_mm`
+// that spread by `log_sd`, so that the mean square stays where they are normal.
+SHARED float us_texture_log(uint key, float grains_per_mm, float log_sd, float x_mm, float y_mm, float z_mm) {
   float x = x_mm * grains_per_mm;
   float y = y_mm * grains_per_mm;
   float z = z_mm * grains_per_mm;
@@ -46,7 +46,7 @@ SHARED float us_texture(uint key, float grains_per_mm, float log_sd, float x_mm,
   float k = floor(z);
   vec4 noise = us_lattice_noise(us_lattice_seed(key, int(i), int(j), int(k)), x - i, y - j, z - k);
   const float root_3 = 1.73205081F;  // a node's is uniform in [−1, 1)
-  return exp(log_sd * (root_3 * noise.x / noise.z - log_sd));
+  return log_sd * (root_3 * noise.x / noise.z - log_sd);
 }
 
 SHARED_END

@@ -33,7 +33,8 @@ float speckle_amplitude(vec3 index, vec3 from_origin_mm) {
     float part = is_inside ? tissue.lesion_amplitude[i].x : tissue.lesion_rim[i].x;
     float log_sd = tissue.lesion_amplitude[i].z;
     if (is_inside && log_sd > 0.0)
-      part *= us_texture(uint(tissue.lesion_rim[i].w), tissue.lesion_amplitude[i].w, log_sd, off.x, off.y, off.z);
+      part *= exp(us_texture_log(uint(tissue.lesion_rim[i].w), tissue.lesion_amplitude[i].w, log_sd, off.x, off.y,
+                                 off.z));
     amplitude = dot(off, off) <= radius * radius ? part : amplitude;
   }
   return amplitude;

@@ -46,6 +46,7 @@ struct LesionEcho {
   double inside_db = 0.0, rim_db = 0.0;
   double rim_mm = 0.0;      // of its own outside
   LesionTexture texture{};  // of the inside
+  double texture_db = 0.0;  // by which the inside's is raised, so that its own mean square is that of inside_db
 };
 
 // A sphere of one HU is drawn by the pictures. Any other (sim/case/lesion_form.h) has a shape and lies in the

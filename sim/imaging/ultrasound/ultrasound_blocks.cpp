@@ -70,8 +70,8 @@ UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, co
     t.lesion_sphere_mm[t.lesion_count] = vec4_from(lesion.center_lps_mm - view.origin_lps_mm, lesion.radius_mm);
     const cases::LesionEcho echo = echo_of(lesion);
     const Texture texture(lesion, echo);
-    t.lesion_amplitude[t.lesion_count] = {speckle_amplitude(echo.inside_db), static_cast<float>(echo.inside),
-                                          texture.log_sd, texture.grains_per_mm};
+    t.lesion_amplitude[t.lesion_count] = {speckle_amplitude(echo.inside_db + echo.texture_db),
+                                          static_cast<float>(echo.inside), texture.log_sd, texture.grains_per_mm};
     t.lesion_rim[t.lesion_count] = {speckle_amplitude(echo.rim_db), static_cast<float>(echo.rim),
                                     static_cast<float>(inner_radius_mm(lesion, echo)),
                                     static_cast<float>(texture.key)};

@@ -10,6 +10,7 @@
 #include "tests/casedb/import/peak_memory.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/mutate.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -22,6 +23,8 @@ TEST(DeidentifyFuzz, MutatedFilesAreRefusedOrWrittenWhole) {
   std::vector<std::string> seeds;
   std::size_t longest = 0;
   for (const PlantedSyntax syntax : kPlantedSyntaxes) {
+    if (syntax == PlantedSyntax::j2k && !fixtures::shared_data_is_there())
+      continue;  // its pixels are a real slice's
     seeds.push_back(planted_bytes(planted_slice(0, syntax).elements, syntax));
     longest = std::max(longest, seeds.back().size());
   }

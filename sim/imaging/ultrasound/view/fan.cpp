@@ -73,7 +73,7 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
       lesions_.push_back({center,
                           lesion.radius_mm * lesion.radius_mm,
                           inner_mm * inner_mm,
-                          {echo.inside, speckle_amplitude(echo.inside_db), center,
+                          {echo.inside, speckle_amplitude(echo.inside_db + echo.texture_db), center,
                            texture.log_sd > 0.0F ? std::optional(texture) : std::nullopt},
                           {echo.rim, speckle_amplitude(echo.rim_db), center}});
     }

@@ -8,6 +8,7 @@
 
 #include "shaders/shared/ultrasound_lattice.glsl.h"
 #include "sim/base/check.h"
+#include "sim/base/exact_math.h"
 #include "sim/case/paint.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/fan.h"
@@ -36,10 +37,29 @@ void put_in_volume(const cases::Lesion& lesion, const volume::Volume& volume, st
       const glm::dvec4 voxel(static_cast<double>(at % nx), static_cast<double>(at / nx % ny),
                              static_cast<double>(at / nx / ny), 1.0);
       const glm::dvec3 off_mm = glm::dvec3(volume.lps_from_voxel * voxel) - lesion.center_lps_mm;
-      level_db += 20.0 * std::log10(static_cast<double>(texture.at(off_mm)));
+      level_db += echo.texture_db + 20.0 / std::numbers::ln10 * static_cast<double>(texture.log_at(off_mm));
     }
     echogenicity[at] = echo_level(level_db, classes[at]);
   });
+}
+
+// Of the few grains that a small lesion has the mean square is by chance another than of many.
+double texture_db(const cases::Lesion& lesion, const cases::LesionEcho& echo) {
+  const Texture texture(lesion, echo);
+  if (!(texture.log_sd > 0.0F)) return 0.0;
+  constexpr int kSteps = 12;  // across its radius: a grain of a tenth of it is still seen
+  const double inner_mm = std::max(inner_radius_mm(lesion, echo), 1e-3);
+  double power = 0.0;
+  int count = 0;
+  for (int i = -kSteps; i <= kSteps; ++i)
+    for (int j = -kSteps; j <= kSteps; ++j)
+      for (int k = -kSteps; k <= kSteps; ++k) {
+        if (i * i + j * j + k * k > kSteps * kSteps) continue;
+        power +=
+            base::exact_exp(2.0 * static_cast<double>(texture.log_at(inner_mm / kSteps * glm::dvec3(i, j, k))));
+        ++count;
+      }
+  return -10.0 / std::numbers::ln10 * base::exact_log(power / count);
 }
 
 }  // namespace
@@ -82,6 +102,7 @@ cases::LesionEcho lesion_echo(const TissueVolume& tissue, const cases::Lesion& l
   echo.rim_db = about_db + look.rim_db;
   echo.rim_mm = look.rim_mm;
   echo.texture = look.texture;
+  echo.texture_db = texture_db(lesion, echo);
   return echo;
 }
 
@@ -103,9 +124,13 @@ Texture::Texture(const cases::Lesion& lesion, const cases::LesionEcho& echo) noe
   key >>= 8U;
 }
 
-float Texture::at(const glm::dvec3& from_center_mm) const noexcept {
+float Texture::log_at(const glm::dvec3& from_center_mm) const noexcept {
   const glm::vec3 off(from_center_mm);
-  return shaders::us_texture(key, grains_per_mm, log_sd, off.x, off.y, off.z);
+  return shaders::us_texture_log(key, grains_per_mm, log_sd, off.x, off.y, off.z);
+}
+
+float Texture::at(const glm::dvec3& from_center_mm) const noexcept {
+  return static_cast<float>(base::exact_exp(static_cast<double>(log_at(from_center_mm))));
 }
 
 double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept {
@@ -117,7 +142,7 @@ void settle_lesions(const volume::Volume& volume, std::span<TissueClass> classes
   for (cases::Lesion& lesion : lesions) {
     if (lesion.kind == cases::LesionKind::by_hu) continue;
     lesion.echo = lesion_echo({&volume, classes, echogenicity}, lesion);
-    if (law < cases::SightLaw::material) lesion.echo->texture = {};
+    if (law < cases::SightLaw::material) lesion.echo->texture = {}, lesion.echo->texture_db = 0.0;
     if (lesion.in_volume() && !echogenicity.empty()) put_in_volume(lesion, volume, classes, echogenicity);
   }
 }

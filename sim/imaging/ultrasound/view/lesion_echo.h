@@ -19,11 +19,11 @@ cases::LesionEcho echo_of(const cases::Lesion& lesion) noexcept;
 // Where the rim of a sphere begins; ≥ 0.
 double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept;
 
-// Of a lesion's inside, fixed to it: what its speckle is times at a place
-// (shaders/shared/ultrasound_lattice.glsl.h).
+// Of a lesion's inside, fixed to it (shaders/shared/ultrasound_lattice.glsl.h).
 struct Texture {
   Texture(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept;
-  float at(const glm::dvec3& from_center_mm) const noexcept;
+  float log_at(const glm::dvec3& from_center_mm) const noexcept;  // of the factor on the speckle's amplitude
+  float at(const glm::dvec3& from_center_mm) const noexcept;      // that factor
   std::uint32_t key;  // of its centre; below 2²⁴, so that float holds it
   float grains_per_mm, log_sd;
 };

@@ -93,7 +93,7 @@ TEST(LesionEcho, ARimLiesWithinTheLesion) {
   const Scene s = all_of(TissueClass::liver);
   std::vector<cases::Lesion> lesions = {in_the_middle(cases::LesionKind::metastasis)};
   lesions[0].echo = lesion_echo(s.tissue(), lesions[0]);
-  lesions[0].echo->texture = {};
+  lesions[0].echo->texture = {}, lesions[0].echo->texture_db = 0.0;
   Inserted inserted;
   inserted.lesions = lesions;
   const TissueAt tissue_at(s.tissue(), inserted);
@@ -124,6 +124,36 @@ TEST(LesionEcho, HasItsKindsTextureByTheNewestLaw) {
     textured += kind.look.texture.sd_db > 0.0 ? 1 : 0;
   }
   EXPECT_EQ(textured, 3);
+}
+
+// A small one has few grains, whose mean square is by chance another than of many.
+TEST(LesionEcho, OfATextureTheMeanSquareIsThatOfItsRowInEachLesion) {
+  const Scene s = all_of(TissueClass::liver);
+  for (const cases::LesionKindRow& kind : cases::lesion_kinds()) {
+    if (kind.look.texture.sd_db == 0.0) continue;
+    for (const double radius_mm : {4.0, 7.5, 15.0})
+      for (int at = 0; at < 6; ++at) {
+        cases::Lesion lesion = in_the_middle(kind.kind, radius_mm);
+        lesion.center_lps_mm.x += 1.7 * at;
+        lesion.echo = lesion_echo(s.tissue(), lesion);
+        Inserted inserted;
+        inserted.lesions.push_back(lesion);
+        const TissueAt tissue_at(s.tissue(), inserted);
+        const double inner_mm = inner_radius_mm(lesion, *lesion.echo) - 1e-6;
+        double power = 0.0;
+        int count = 0;
+        for (double x = -inner_mm; x <= inner_mm; x += 0.37)
+          for (double y = -inner_mm; y <= inner_mm; y += 0.37)
+            for (double z = -inner_mm; z <= inner_mm; z += 0.37) {
+              if (x * x + y * y + z * z > inner_mm * inner_mm) continue;
+              power +=
+                  std::pow(static_cast<double>(tissue_at.speckle(lesion.center_lps_mm + glm::dvec3(x, y, z))), 2.0);
+              ++count;
+            }
+        EXPECT_NEAR(10.0 * std::log10(power / count), lesion.echo->inside_db, 0.25)
+            << kind.words << ", " << radius_mm;
+      }
+  }
 }
 
 // Levels in dB of a textured lesion's inside, relative to its own, on a grid of a tenth of a grain.
