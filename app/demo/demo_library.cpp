@@ -69,7 +69,11 @@ base::Result<void> make_demo_cohort(casedb::Library& library,
   for (const casedb::Account& one : casedb::list_users(library))
     for (const auto& [name, role] : accounts) {
       if (one.login_name != name) continue;
-      const auto post = role == casedb::Role::trainee ? casedb::Post::learner : casedb::Post::mentor;
+      if (role == casedb::Role::director) {
+        if (const auto done = casedb::appoint_director(library, kTitle, one.person_id); !done) return done;
+        continue;
+      }
+      const auto post = role == casedb::Role::mentor ? casedb::Post::mentor : casedb::Post::learner;
       if (const auto done = casedb::enrol(library, cohort->cohort_id, one.person_id, post); !done) return done;
     }
   return {};

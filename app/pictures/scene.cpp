@@ -75,14 +75,13 @@ base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, co
 
 bool shows_portal_walls(const Scene& scene) noexcept {
   const auto* view = scene.view ? std::get_if<UltrasoundSceneView>(&*scene.view) : nullptr;
-  return view == nullptr || view->view.sight_law >= cases::SightLaw::material;
+  return view == nullptr || imaging::draws_portal_walls(view->view.sight_law);
 }
 
 base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library) {
   imaging::PortalLumen portal(volume);
   auto classes = classes_of(scene, volume, library, portal);
   if (!classes) return classes.error();
-  portal.add(scene.structures);
   SceneTissue tissue{std::move(*classes), {}};
   tissue.echogenicity = imaging::echogenicity(volume, tissue.classes);
   imaging::show_organs(volume, tissue.classes, tissue.echogenicity);

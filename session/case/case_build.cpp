@@ -99,7 +99,7 @@ std::optional<double> tube_kv_of(const std::vector<std::pair<std::string, std::s
 }
 
 bool shows_portal_walls(Needs needs, const cases::Case& scene) {
-  return needs == Needs::ultrasound && scene.sight_law >= cases::SightLaw::material;
+  return needs == Needs::ultrasound && imaging::draws_portal_walls(scene.sight_law);
 }
 
 // Of all that was painted.

@@ -14,7 +14,7 @@ SHARED_CONSTANT int kUsPhases = 1024;
 struct UsTissue {
   vec4 amplitude[16];                    // x: of each class
   vec4 lesion_sphere_mm[kUsMaxLesions];  // xyz: centre; w: radius
-  vec4 lesion_amplitude[kUsMaxLesions];  // x; y: class; z, w: log_sd and grains_per_mm of its texture (us_texture_log)
+  vec4 lesion_amplitude[kUsMaxLesions];  // x; y: class; z: log_sd, w: grains_per_mm of its texture
   vec4 lesion_rim[kUsMaxLesions];        // x, y: of its rim; z: radius at which that begins; w: the texture's key
   int lesion_count;
   int size_x;  // of the volume, voxels

@@ -46,6 +46,14 @@ class FirstHour : public testing::Test {
   static inline Json made_;
 };
 
+// Who logs in first finds somebody to look after.
+TEST_F(FirstHour, ItsPeopleAreInACohort) {
+  std::multiset<std::string> posts;
+  const Json cohort = ask("cohort show Demonstration");
+  for (const Json& one : cohort.at("enrolments")) posts.insert(one.at("post"));
+  EXPECT_EQ(posts, (std::multiset<std::string>{"learner", "mentor", "mentor"}));
+}
+
 TEST_F(FirstHour, HasThreeDrillsThatHoldTheirCheck) {
   ASSERT_EQ(made_.at("drills").size(), 3U);
   EXPECT_TRUE(made_.at("cases").empty());

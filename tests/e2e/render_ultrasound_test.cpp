@@ -197,6 +197,37 @@ TEST(RenderUltrasound, OfAPatientWhoMoves) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "q.png"));
 }
 
+// What the newest law draws of lesions and portal veins (docs/decisions/0100, 0102), and no other difference.
+TEST(RenderUltrasound, AnEarlierLawDrawsNeitherTextureNorPortalWalls) {
+  const auto scratch = fixtures::fresh_folder("render_ultrasound_laws");
+  Json plain = ball();
+  plain["view"]["output"] = "display";
+  plain["view"]["size_px"] = {160, 120};
+  const auto lesion = [](const char* kind) {
+    return Json{{{"center_mm", {0, -60, 0}}, {"radius_mm", 12}, {"hu", 45}, {"kind", kind}}};
+  };
+  const auto changes = [&](Json scene) {
+    std::string drawn[2];
+    for (const int newest : {0, 1}) {
+      scene["view"]["sight_law"] = newest != 0 ? "material" : "clutter";
+      const auto ran = render(scene, scratch, "law.png");
+      EXPECT_EQ(ran.exit_code, 0) << ran.err;
+      drawn[newest] = fixtures::whole_file(scratch / "law.png");
+      std::filesystem::remove(scratch / "law.png");
+    }
+    return drawn[0] != drawn[1];
+  };
+  Json even = plain, textured = plain, walled = plain;
+  even["lesions"] = lesion("node");
+  textured["lesions"] = lesion("abscess");
+  walled["volume"]["analytic"]["shapes"].push_back(
+      {{"kind", "sphere"}, {"center_mm", {0, -60, 0}}, {"radius_mm", 10}, {"hu", 40}, {"class", "portal_vein"}});
+  EXPECT_FALSE(changes(plain));
+  EXPECT_FALSE(changes(even));
+  EXPECT_TRUE(changes(textured));
+  EXPECT_TRUE(changes(walled));
+}
+
 TEST(Sheet, PutsScenesSideBySide) {
   const auto scratch = fixtures::fresh_folder("sheet");
   Json scene = ball();

@@ -43,25 +43,6 @@ void put_in_volume(const cases::Lesion& lesion, const volume::Volume& volume, st
   });
 }
 
-// Of the few grains that a small lesion has the mean square is by chance another than of many.
-double texture_db(const cases::Lesion& lesion, const cases::LesionEcho& echo) {
-  const Texture texture(lesion, echo);
-  if (!(texture.log_sd > 0.0F)) return 0.0;
-  constexpr int kSteps = 12;  // across its radius: a grain of a tenth of it is still seen
-  const double inner_mm = std::max(inner_radius_mm(lesion, echo), 1e-3);
-  double power = 0.0;
-  int count = 0;
-  for (int i = -kSteps; i <= kSteps; ++i)
-    for (int j = -kSteps; j <= kSteps; ++j)
-      for (int k = -kSteps; k <= kSteps; ++k) {
-        if (i * i + j * j + k * k > kSteps * kSteps) continue;
-        power +=
-            base::exact_exp(2.0 * static_cast<double>(texture.log_at(inner_mm / kSteps * glm::dvec3(i, j, k))));
-        ++count;
-      }
-  return -10.0 / std::numbers::ln10 * base::exact_log(power / count);
-}
-
 }  // namespace
 
 cases::LesionEcho lesion_echo(const TissueVolume& tissue, const cases::Lesion& lesion) {
@@ -131,6 +112,24 @@ float Texture::log_at(const glm::dvec3& from_center_mm) const noexcept {
 
 float Texture::at(const glm::dvec3& from_center_mm) const noexcept {
   return static_cast<float>(base::exact_exp(static_cast<double>(log_at(from_center_mm))));
+}
+
+double texture_db(const cases::Lesion& lesion, const cases::LesionEcho& echo) {
+  const Texture texture(lesion, echo);
+  if (!(texture.log_sd > 0.0F)) return 0.0;
+  constexpr int kSteps = 12;  // across its radius: a grain of a tenth of it is still seen
+  const double inner_mm = std::max(inner_radius_mm(lesion, echo), 1e-3);
+  double power = 0.0;
+  int count = 0;
+  for (int i = -kSteps; i <= kSteps; ++i)
+    for (int j = -kSteps; j <= kSteps; ++j)
+      for (int k = -kSteps; k <= kSteps; ++k) {
+        if (i * i + j * j + k * k > kSteps * kSteps) continue;
+        power +=
+            base::exact_exp(2.0 * static_cast<double>(texture.log_at(inner_mm / kSteps * glm::dvec3(i, j, k))));
+        ++count;
+      }
+  return -10.0 / std::numbers::ln10 * base::exact_log(power / count);
 }
 
 double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept {

@@ -28,6 +28,10 @@ struct Texture {
   float grains_per_mm, log_sd;
 };
 
+// An echo's texture_db. Of the few grains that a small lesion has the mean square is by chance another than of
+// many.
+double texture_db(const cases::Lesion& lesion, const cases::LesionEcho& echo);
+
 // Settles every lesion whose kind has a look of its own, and puts those that lie in the volume into it: their
 // voxels take class and level, which replace what HU told. With texture by the law `material` and later.
 void settle_lesions(const volume::Volume& volume, std::span<volume::TissueClass> classes,

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/case/case.h"
 #include "sim/case/structure.h"
 #include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
@@ -29,6 +30,10 @@ class PortalLumen {
   const volume::Volume& volume_;
   std::vector<std::uint8_t> voxels_;
 };
+
+inline bool draws_portal_walls(cases::SightLaw law) noexcept {
+  return law >= cases::SightLaw::material;
+}
 
 // Liver and what no label tells apart get the walls' level (organs.h) within kPortalWallMm of the lumen; the lumen
 // and all else keep theirs. Takes as long as there is lumen.

@@ -111,7 +111,11 @@ TEST(TargetTruth, IsWhatADetectorFindsWhoLooksAtThePictureOnly) {
     const double off_mm = 0.6 * radius_mm * (2.0 * rng.uniform() - 1.0);
     Inserted inserted;
     inserted.lesions.push_back(lesion_of_level({0.0, depth_mm, off_mm}, radius_mm, -10.0 + 18.0 * rng.uniform()));
-    if (i % 3 == 0) inserted.lesions[0].echo->texture = {3.0 * rng.uniform(), 2.0 + 3.0 * rng.uniform()};
+    if (i % 3 == 0) {
+      cases::LesionEcho& echo = *inserted.lesions[0].echo;
+      echo.texture = {3.0 * rng.uniform(), 2.0 + 3.0 * rng.uniform()};
+      echo.texture_db = texture_db(inserted.lesions[0], echo);
+    }
     const TargetLevel level = target_level(liver_about().tissue(), view, inserted, {});
     const PolarPicture picture = on_screen(liver_about(), view, inserted);
     const bool found = detected(picture, view, inserted.lesions.front());
