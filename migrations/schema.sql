@@ -136,7 +136,7 @@ CREATE TABLE case_label_map (
   case_id TEXT NOT NULL REFERENCES training_case (case_id),
   position INTEGER NOT NULL CHECK (position >= 0),
   labels_sha256 TEXT NOT NULL CHECK (length(labels_sha256) = 64), -- a file of assets/
-  created_us INTEGER NOT NULL,
+  created_us INTEGER NOT NULL, wins INTEGER NOT NULL DEFAULT 0 CHECK (wins IN (0, 1)),
   PRIMARY KEY (case_id, position),
   UNIQUE (case_id, labels_sha256)
 ) STRICT;

@@ -43,7 +43,10 @@ std::string json_of_structure(const std::string& structure_id) {
 std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled) {
   Json list = Json::array();
   for (const LabelCount& one : labels)
-    list.push_back({{"label", one.label}, {"name", one.name}, {"voxels", one.voxels}});
+    list.push_back({{"label", one.label},
+                    {"name", one.name},
+                    {"voxels", one.voxels},
+                    {"tissue", one.tissue ? Json(volume::about(*one.tissue).name) : Json(nullptr)}});
   return text({{"labels", list}, {"resampled", resampled}});
 }
 

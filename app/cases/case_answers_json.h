@@ -19,6 +19,7 @@ struct LabelCount {
   int label = 0;
   std::string name;
   std::size_t voxels = 0;
+  std::optional<volume::TissueClass> tissue;  // what its voxels are now
 };
 
 std::string json_of_structure(const std::string& structure_id);

@@ -10,6 +10,7 @@
 #include "app/attempts/answers_json.h"
 #include "app/cases/case_answers_json.h"
 #include "app/cases/import_case.h"
+#include "app/cases/label_file.h"
 #include "app/cases/privacy_text.h"
 #include "app/cases/tissue_text.h"
 #include "app/cli/command.h"
@@ -161,17 +162,14 @@ int run_sample(const Arguments& arguments) {
   if (!row) return refuse(row.error());
   const auto volume = casedb::load_volume(*library, *row);
   if (!volume) return refuse(volume.error());
-  std::optional<volume::LabelMap> labels;  // the built-in case knows its tissues
-  if (!row->labels_sha256.empty()) {
-    auto loaded = casedb::load_labels(*library, *row);
-    if (!loaded) return refuse(loaded.error());
-    labels = std::move(*loaded);
-  }
+  const auto maps = casedb::load_label_maps(*library, *row);
+  if (!maps) return refuse(maps.error());
   const auto classes = casedb::load_classes(*library, *row);
   if (!classes) return refuse(classes.error());
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(*volume);
   std::optional<volume::Organs> organs;
-  if (!labels) organs = volume::find_organs(*volume, *classes);
+  if (row->labels_sha256.empty())
+    organs = volume::find_organs(*volume, *classes);  // the built-in patient knows them
   for (PointSample& sample : samples) {
     const glm::dvec3 index(voxel_from_lps * glm::dvec4(sample.lps_mm, 1.0));
     if (const auto hu = volume::sample_nearest(*volume, index)) sample.hu_nearest = *hu;
@@ -181,15 +179,17 @@ int run_sample(const Arguments& arguments) {
         glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), volume->size_voxels - 1);
     const std::size_t at = volume->index(nearest.x, nearest.y, nearest.z);
     sample.tissue = volume::about((*classes)[at]).name;
-    if (labels && labels->label[at] != 0) {
-      sample.organ = labels->names[labels->label[at]];
-      sample.organ_confidence = 1.0;
-    }
     if (organs)
       if (const auto organ = volume::organ_at(*organs, sample.lps_mm)) {
         sample.organ = base::name_of(volume::kFoundOrganNames, organ->organ);
         sample.organ_confidence = organ->confidence;
       }
+    for (const casedb::StoredLabels& map : *maps) {  // the last one wins
+      const std::string& name = map.labels.names[map.labels.label.at(at)];
+      if (!map.wins || map.labels.label[at] == 0 || is_unnamed(name)) continue;
+      sample.organ = name;
+      sample.organ_confidence = 1.0;
+    }
   }
   if (arguments.has("--json")) {
     std::fputs(json_of_samples(samples).c_str(), stdout);
@@ -197,7 +197,7 @@ int run_sample(const Arguments& arguments) {
   }
   for (const PointSample& sample : samples) {
     std::string known = sample.organ ? ", " + *sample.organ : "";
-    if (organs && sample.organ)
+    if (sample.organ && *sample.organ_confidence < 1.0)
       known += " (" + std::to_string(std::lround(100.0 * *sample.organ_confidence)) + " % sure)";
     std::printf("%.6g,%.6g,%.6g: ", sample.lps_mm.x, sample.lps_mm.y, sample.lps_mm.z);
     if (sample.hu_nearest)

@@ -137,14 +137,17 @@ int run_case_label(const Arguments& arguments) {
   for (const std::uint8_t label : read->labels.label) ++voxels[label];
   std::vector<LabelCount> counts;
   for (std::size_t label = 1; label < read->labels.names.size(); ++label)
-    if (voxels[label] > 0) counts.push_back({static_cast<int>(label), read->labels.names[label], voxels[label]});
+    if (voxels[label] > 0)
+      counts.push_back({static_cast<int>(label), read->labels.names[label], voxels[label],
+                        volume::tissue_of_name(read->labels.names[label])});
   if (arguments.has("--json")) {
     std::fputs(json_of_labels(counts, read->resampled).c_str(), stdout);
     return kDone;
   }
   std::printf("%zu labels%s\n", counts.size(), read->resampled ? ", resampled to the case's grid" : "");
   for (const LabelCount& one : counts)
-    std::printf("%4d  %-30s %zu voxels\n", one.label, one.name.c_str(), one.voxels);
+    std::printf("%4d  %-30s %zu voxels%s\n", one.label, one.name.c_str(), one.voxels,
+                one.tissue ? (std::string(", now ") + volume::about(*one.tissue).name).c_str() : "");
   return kDone;
 }
 
@@ -188,16 +191,17 @@ Command case_structure_command() {
 }
 
 Command case_label_command() {
-  return {
-      .name = "case label",
-      .positionals = "CASE FILE",
-      .min_positionals = 2,
-      .max_positionals = 2,
-      .options = kLabelOptions,
-      .acts = true,
-      .summary =
-          "Adds a label map (NIfTI, NRRD, MetaImage) to a case; another grid is resampled by the nearest voxel.",
-      .run = &run_case_label};
+  return {.name = "case label",
+          .positionals = "CASE FILE",
+          .min_positionals = 2,
+          .max_positionals = 2,
+          .options = kLabelOptions,
+          .acts = true,
+          .summary =
+              "Adds a label map (NIfTI, NRRD, MetaImage) to a case; another grid is resampled by the nearest "
+              "voxel. A label "
+              "with the name of a tissue or an organ is the tissue of its voxels from then on.",
+          .run = &run_case_label};
 }
 
 }  // namespace seldinger::app

@@ -11,6 +11,7 @@
 namespace seldinger::app {
 namespace {
 
+constexpr const char* kUnnamed = "label ";
 constexpr double kSameGridMm = 1e-3;  // header texts of other programs keep so much
 
 bool same_grid(const volume::Volume& a, const volume::Volume& b) {
@@ -26,6 +27,10 @@ bool same_grid(const volume::Volume& a, const volume::Volume& b) {
 }
 
 }  // namespace
+
+bool is_unnamed(const std::string& label_name) {
+  return label_name.starts_with(kUnnamed);
+}
 
 base::Result<LabelFile> read_label_file(const std::filesystem::path& file, const casedb::CaseRow& row,
                                         const std::vector<std::pair<int, std::string>>& names,
@@ -46,7 +51,7 @@ base::Result<LabelFile> read_label_file(const std::filesystem::path& file, const
   read.labels.names.push_back("none");
   for (int label = 1; label <= highest; ++label) {
     const auto known = numbering == Numbering::own ? std::nullopt : volume::total_segmentator_label(label);
-    read.labels.names.push_back(known ? known->name : "label " + std::to_string(label));
+    read.labels.names.push_back(known ? known->name : kUnnamed + std::to_string(label));
   }
   for (const auto& [label, name] : names) {
     if (label > highest) return base::Error{"bad_labels", "a named label is not in the file"};

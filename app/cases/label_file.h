@@ -15,6 +15,8 @@ struct LabelFile {
   bool resampled = false;   // its grid was another one: by the nearest voxel
 };
 
+bool is_unnamed(const std::string& label_name);  // "label N"
+
 enum class Numbering { own, total_segmentator };
 
 // `names`: of labels, by number; the others are called as the numbering does, "label N" where it has none. Refused

@@ -82,7 +82,9 @@ constexpr ReasonWords kReasons[] = {
     {"tracking_jumps", "tracking jumped faster than a hand can move"},
     {"tracking_repaired", "more than 1 % of the tracked poses had to be repaired"},
     {"way_impossible",
-     "the needle came through a cut side of the CT or through the table, or left the body on the other side"},
+     "the needle came through a cut side of the CT or through the table, left the body on the other side, or was "
+     "in "
+     "the body from the start"},
     {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` measures it"},
 };
 

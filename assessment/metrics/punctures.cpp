@@ -7,8 +7,8 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr double kPunctureDepthMm = 2.0, kPunctureSeconds = 0.1, kRearmDepthMm = -1.0;  // our judgement
-constexpr double kPartialShare = 0.2, kPartialMinMm = 2.0, kPartialMaxMm = 5.0;         // docs/clinical.md, Metrics
+constexpr double kPunctureSeconds = 0.1, kRearmDepthMm = -1.0;                   // our judgement
+constexpr double kPartialShare = 0.2, kPartialMinMm = 2.0, kPartialMaxMm = 5.0;  // docs/clinical.md, Metrics
 
 Measured skin_punctures(const Signals& signals) {
   return Measured::of(count_punctures(signals).punctures);

@@ -45,6 +45,9 @@ inline constexpr double kMostClearanceMm = 20.0;  // of clearance_min: nobody as
 // At the endpoint; there is one, and a target.
 bool target_hit(const Signals& signals);
 
+// How deep below the skin the tip has punctured it: our judgement.
+inline constexpr double kPunctureDepthMm = 2.0;
+
 struct PunctureCounts {
   int punctures = 0, full_withdrawals = 0, partial_withdrawals = 0;
   // Of the first puncture that counted: when it was 2 mm deep, and the first pose of it in the body.

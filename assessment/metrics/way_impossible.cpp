@@ -58,17 +58,27 @@ bool through_the_table(const Signals& signals) {
   return false;
 }
 
+// What begins in the body has come through no skin that was recorded.
+bool begins_inside(const Signals& signals) {
+  return !signals.passages.empty() && signals.passages.front().in_body &&
+         signals.passages.front().depth_mm > kPunctureDepthMm;
+}
+
 Measured way_impossible(const Signals& signals) {
-  return Measured::of(through_a_cut(signals) || out_ahead(signals) || through_the_table(signals) ? 1.0 : 0.0);
+  return Measured::of(
+      begins_inside(signals) || through_a_cut(signals) || out_ahead(signals) || through_the_table(signals) ? 1.0
+                                                                                                           : 0.0);
 }
 
 constexpr MetricInfo kWayMetrics[] = {
-    {"way_impossible", 1, "bool", "Impossible path", Group::recording, Direction::lower_is_better, kSkin,
+    {"way_impossible", 2, "bool", "Impossible path", Group::recording, Direction::lower_is_better, kSkin,
      "1 where the tip was, for 0.1 s or when the trigger was pressed, in a place that it could only have reached "
      "through a cut side of the CT; where it left the body ahead, 5 mm or more from where it came in; or where the "
      "needle in the body pointed up by more than 30° with its hub 10 mm or more below the table: no hand does "
-     "that. Else 0. Such an attempt is not graded.",
-     "docs/clinical.md, Body and patient", &way_impossible, kProportion, kInAnyFrame | kMirrored | kOneDarkFrame},
+     "that; or where the recording begins with the tip 2 mm or more below the skin, so that it shows no puncture. "
+     "Else 0. Such an attempt is not graded.",
+     "docs/clinical.md, Body and patient", &way_impossible, kProportion, kInAnyFrame | kMirrored | kOneDarkFrame,
+     "1: also 0 where the recording began with the tip below the skin."},
 };
 
 }  // namespace

@@ -41,13 +41,16 @@ base::Result<void> remove_structure(Library& library, const std::string& case_id
 base::Result<void> put_structure(Library& library, const StructureRow& structure);
 std::vector<StructureRow> list_structures(Library& library, const std::string& case_id);  // in their order
 
-// A label map beside the case's volume: voxels as many. Adding it changes nothing yet; a structure may be one of
-// its labels. Answers its SHA-256. Refused: `no_case`, `not_a_draft`, `has_attempts`, `bad_labels` (size, names).
+// A label map beside the case's volume: voxels as many. A label whose name is that of a tissue
+// (volume::tissue_of_name) is the class of its voxels from then on, of maps with a label there the last one's; and
+// a structure may be one of its labels. Answers its SHA-256. Refused: `no_case`, `not_a_draft`, `has_attempts`,
+// `bad_labels` (size, names).
 base::Result<std::string> add_label_map(Library& library, const std::string& case_id,
                                         const volume::LabelMap& labels);
 struct StoredLabels {
   std::string sha256;
   volume::LabelMap labels;
+  bool wins = true;  // not in a map that was added before schema 48: it counts for structures alone
 };
 // The case's own first, then those added, in order.
 base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const CaseRow& row);

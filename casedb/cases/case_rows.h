@@ -18,13 +18,15 @@ namespace seldinger::casedb {
 
 // The bytes of the file of that SHA-256; as Library::load_asset.
 using LoadAsset = std::function<base::Result<std::vector<std::byte>>(const std::string& sha256)>;
+LoadAsset asset_loader(const Library& library);  // which outlives it
 
 std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id);  // oldest first
 std::vector<LesionRow> read_lesions(Sqlite& database, const std::optional<std::string>& case_id);
 // Nothing when one of them is not such as the store writes.
 std::optional<std::vector<StructureRow>> read_structures(Sqlite& database, const std::string& case_id);
 
-base::Result<std::vector<volume::TissueClass>> load_classes(const LoadAsset& load, const CaseRow& row);
+base::Result<std::vector<volume::TissueClass>> load_classes(Sqlite& database, const LoadAsset& load,
+                                                            const CaseRow& row);
 std::vector<std::string> label_map_names(Sqlite& database, const CaseRow& row);  // the case's own first
 
 // What of a case is its volume: the grid, the extremes, the files made of it.

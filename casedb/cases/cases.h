@@ -91,8 +91,8 @@ base::Result<CaseRow> find_case(Library& library, const std::string& case_id);  
 base::Result<volume::Volume> load_volume(Library& library, const CaseRow& row);
 base::Result<cases::Mesh> load_skin(Library& library, const CaseRow& row);
 base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row);  // `no_labels`
-// One class per voxel, as add_case stored them. A case from before schema 3 has none: they are computed, in about a
-// second for 512 x 512 x 100 voxels.
+// One class per voxel, as add_case stored them, or a label's that was added since (authoring.h). A case from before
+// schema 3 has none: they are computed, in about a second for 512 x 512 x 100 voxels.
 base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row);
 
 // Keeps that a person (or nobody known) looked through the slices and saw no text: `no_case`, `no_person`. The

@@ -171,7 +171,7 @@ bool is_sound_label_map(const CaseRow& row, const volume::LabelMap& labels) {
 
 base::Result<bool> CaseContents::has(volume::TissueClass tissue) {
   if (!classes_) {
-    const auto classes = load_classes(load_, row_);
+    const auto classes = load_classes(database_, load_, row_);
     if (!classes) return classes.error();
     classes_.emplace().fill(false);
     for (const volume::TissueClass one : *classes) (*classes_)[static_cast<std::uint8_t>(one)] = true;

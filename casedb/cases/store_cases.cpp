@@ -308,11 +308,9 @@ base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row)
   return volume::labels_from_bytes(*bytes);
 }
 
-base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row) {
-  return load_classes([&](const std::string& sha256) { return library.load_asset(sha256); }, row);
-}
+namespace {
 
-base::Result<std::vector<volume::TissueClass>> load_classes(const LoadAsset& load, const CaseRow& row) {
+base::Result<std::vector<volume::TissueClass>> stored_classes(const LoadAsset& load, const CaseRow& row) {
   if (!row.classes_sha256.empty()) {
     const auto bytes = load(row.classes_sha256);
     if (!bytes) return bytes.error();
@@ -331,6 +329,34 @@ base::Result<std::vector<volume::TissueClass>> load_classes(const LoadAsset& loa
   if (labels->label.size() != volume->hu.size())
     return base::Error{"damaged", "the stored labels are not the volume's"};
   return volume::tissue_classes_by_rule_1(*volume, &*labels);
+}
+
+}  // namespace
+
+LoadAsset asset_loader(const Library& library) {
+  return [&library](const std::string& sha256) { return library.load_asset(sha256); };
+}
+
+base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row) {
+  return load_classes(library.database(), asset_loader(library), row);
+}
+
+base::Result<std::vector<volume::TissueClass>> load_classes(Sqlite& database, const LoadAsset& load,
+                                                            const CaseRow& row) {
+  auto classes = stored_classes(load, row);
+  if (!classes) return classes;
+  Statement maps = question(database, "label_maps_of_case");
+  for (maps.bind("case_id", row.case_id); maps.step();) {
+    if (maps.integer("wins") == 0) continue;
+    const auto bytes = load(maps.text("labels_sha256"));
+    if (!bytes) return bytes.error();
+    const auto labels = volume::labels_from_bytes(*bytes);
+    if (!labels) return labels.error();
+    if (labels->label.size() != classes->size())
+      return base::Error{"damaged", "the stored labels are not the volume's"};
+    volume::let_labels_win(*labels, *classes);
+  }
+  return classes;
 }
 
 base::Result<void> confirm_no_burned_in_text(Library& library, const std::string& case_id,

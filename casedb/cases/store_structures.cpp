@@ -50,10 +50,6 @@ std::optional<StructureRow> read_structure(const Statement& from) {
   return row;
 }
 
-LoadAsset asset_loader(const Library& library) {
-  return [&library](const std::string& sha256) { return library.load_asset(sha256); };
-}
-
 // Reading classes and labels takes a moment: not to be asked under the write lock.
 base::Result<void> check_structure(Library& library, const StructureRow& structure) {
   if (!is_sound_name(structure.name)) return base::Error{"bad_structure", "a name has 1 to 100 bytes on one line"};
@@ -210,12 +206,16 @@ std::vector<std::string> label_map_names(Sqlite& database, const CaseRow& row) {
 
 base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const CaseRow& row) {
   std::vector<StoredLabels> maps;
-  for (const std::string& sha256 : label_map_names(library.database(), row)) {
-    const auto bytes = library.load_asset(sha256);
+  if (!row.labels_sha256.empty()) maps.push_back({row.labels_sha256, {}});
+  Statement added = question(library.database(), "label_maps_of_case");
+  for (added.bind("case_id", row.case_id); added.step();)
+    maps.push_back({added.text("labels_sha256"), {}, added.integer("wins") != 0});
+  for (StoredLabels& map : maps) {
+    const auto bytes = library.load_asset(map.sha256);
     if (!bytes) return bytes.error();
     auto labels = volume::labels_from_bytes(*bytes);
     if (!labels) return labels.error();
-    maps.push_back({sha256, std::move(*labels)});
+    map.labels = std::move(*labels);
   }
   return maps;
 }

@@ -152,12 +152,13 @@ void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id
       const auto found =
           std::find_if(own.begin(), own.end(), [&](const Column& one) { return one.first == column; });
       const bool replaced = found != own.end() && (is_case || column == "case_id");
+      const bool wins = table.name == "case_label_map" && column == "wins";  // as in a map that is added now
       if (!columns.empty()) {
         columns += ", ";
         values += ", ";
       }
       columns += column;
-      values += replaced ? found->second : column;
+      values += replaced ? found->second : wins ? "1" : column;
     }
     if (columns.empty()) continue;
     Statement copy =

@@ -173,6 +173,10 @@ TEST_F(AuthoringCommands, LabelMapsAreTakenResampledAndRefused) {
   ASSERT_EQ(same.at("labels").size(), 1U);
   EXPECT_EQ(same.at("labels")[0].at("name"), "vein");
   EXPECT_GT(same.at("labels")[0].at("voxels").get<int>(), 1000);
+  EXPECT_EQ(same.at("labels")[0].at("tissue"), "vessel");
+  const auto sampled = [&] { return answer("sample " + case_id_ + " --lps 33,0,0 --json").at("samples").at(0); };
+  EXPECT_EQ(sampled().at("class"), "vessel") << "a label wins";
+  EXPECT_EQ(sampled().at("organ"), "vein");
   answer("case structure " + case_id_ + " --name wall --rule critical --label vein --tissue vessel --json");
   answer("case structure " + case_id_ + " --name again --rule advisory --label 2 --tissue vessel --json");
   EXPECT_EQ(code_of("case structure " + case_id_ + " --name x --rule major --label bone --tissue bone"),
@@ -191,6 +195,9 @@ TEST_F(AuthoringCommands, LabelMapsAreTakenResampledAndRefused) {
   std::ofstream(scratch_ / "coarse.mha", std::ios::binary) << coarse;
   const Json numbered = answer("case label " + case_id_ + " " + file + " --numbering totalsegmentator --json");
   EXPECT_EQ(numbered.at("labels").at(0).at("name"), "kidney_right") << "label 2";
+  EXPECT_EQ(sampled().at("class"), "kidney") << "the last one wins";
+  EXPECT_EQ(sampled().at("organ"), "kidney_right");
+  EXPECT_EQ(sampled().at("confidence"), 1.0);
   const Json resampled = answer("case label " + case_id_ + " " + (scratch_ / "coarse.mha").string() + " --json");
   EXPECT_EQ(resampled.at("resampled"), true);
   const double voxels = same.at("labels")[0].at("voxels"), got = resampled.at("labels")[0].at("voxels");

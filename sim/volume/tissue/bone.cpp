@@ -25,19 +25,28 @@ constexpr double kRibMl = 1.0;                              // a piece of an art
 constexpr double kHeldByContrast = 0.5, kHeldByBone = 0.4;  // of a surface; a vessel on bone: less than a third
 constexpr int kNoContrastHu =
     200;  // above the brightest contrast: a rib beside a kidney, whose blurred rim the kidney takes
-constexpr double kHeldBrightByBone = 0.5;             // as bright as blood of an early angiogram
-constexpr double kEnhancedMl = 30.0;                  // more than thyroid and cartilage without contrast
-constexpr double kDeepMm = 35.0, kDeepBoneMl = 20.0;  // ribs lie above; deeper bones are larger or have marrow
+constexpr double kHeldBrightByBone = 0.5;               // as bright as blood of an early angiogram
+constexpr double kEnhancedMl = 30.0;                    // more than thyroid and cartilage without contrast
+constexpr double kDrainedMl = 100.0;                    // the same with its blurred edge
+constexpr double kDeepMm = 35.0, kDeepBoneMl = 20.0;    // ribs lie above; deeper bones are larger or have marrow
+constexpr double kDeepShare = 0.9;                      // a rib is deep beside the spine only
+constexpr double kByLungMm = 15.0, kByLungShare = 0.5;  // as ribs are named (docs/decisions/0086)
+constexpr double kInLungMm = 2.0, kInLungShare = 0.9;   // and a voxel; a vessel of the lung has lung all around
 constexpr double kSkinMm = 4.0, kGapMm = 2.0, kUnit = 8.0;
-constexpr int kLeastFatHu = -200, kFatHu = -30;  // the middle between fat, -100, and tissue, 40
-constexpr double kClassShare = 0.4;              // a rib of 7 mm in voxels of 5 mm fills less than half of most
+constexpr int kLeastFatHu = -200, kFatHu = -30;               // the middle between fat, -100, and tissue, 40
+constexpr double kClassShare = 0.4, kCoarseClassShare = 0.3;  // a rib of 7 mm fills a third of many of 5 mm
 constexpr double kWhole = 255.0;
 constexpr int kLeastMarrowHu = 90;  // below it a voxel is muscle, fat or nearly so
 
 struct Left {  // a piece of what is bright and no contrast
-  std::size_t voxels = 0, faces = 0, contrast_faces = 0, deep = 0;
+  std::size_t voxels = 0, faces = 0, contrast_faces = 0, deep = 0, by_lung = 0, in_lung = 0;
   int peak_hu = -1024;
   bool marrow = false;  // holds spongy bone
+  bool cut = false;     // by a side of the field
+
+  bool mostly(std::size_t some, double share) const {
+    return static_cast<double>(some) > share * static_cast<double>(voxels);
+  }
 };
 
 class BoneFinder {
@@ -60,9 +69,10 @@ class BoneFinder {
     join_held_pools();
     fill_holes();
     weigh();
+    const double least_share = kWhole * (is_coarse(volume_) ? kCoarseClassShare : kClassShare);
     for (std::size_t at = 0; at < classes_.size(); ++at) {
       if (classes_[at] == TissueClass::air || classes_[at] == TissueClass::metal) continue;
-      if (share_[at] >= kWhole * kClassShare)
+      if (share_[at] >= least_share)
         classes_[at] = TissueClass::bone;
       else if (classes_[at] == TissueClass::bone)
         classes_[at] = TissueClass::soft_tissue;
@@ -163,27 +173,41 @@ class BoneFinder {
       ml += here_ml;
       if (here_ml >= 1.0) contrast_hu_ = std::max(contrast_hu_, pool.level_hu);
     }
-    enhanced_ = ml >= kEnhancedMl;
+    double drained_ml = 0.0;
+    for (std::size_t at = 0; at < classes_.size(); ++at) drained_ml += pools_.enhanced(at) ? voxel_ml_ : 0.0;
+    enhanced_ = ml >= kEnhancedMl || drained_ml >= kDrainedMl;
   }
 
   bool is_bone(const Left& piece) const {
     if (piece.marrow) return true;
     const double ml = static_cast<double>(piece.voxels) * voxel_ml_;
-    if (piece.peak_hu<contrast_hu_ + kNoContrastHu&& static_cast<double>(piece.contrast_faces)> kHeldByContrast *
-        static_cast<double>(piece.faces))
-      return false;
-    if (enhanced_ && piece.deep * 2 > piece.voxels && ml < kDeepBoneMl) return false;
+    const bool in_lung = piece.mostly(piece.in_lung, kInLungShare);
+    const bool by_lung = !in_lung && piece.mostly(piece.by_lung, kByLungShare);
+    const bool held_by_contrast =
+        static_cast<double>(piece.contrast_faces) > kHeldByContrast * static_cast<double>(piece.faces);
+    if (piece.peak_hu < contrast_hu_ + kNoContrastHu && (held_by_contrast || (enhanced_ && in_lung))) return false;
+    // Of what a side of the field cuts nobody knows where the rest lies.
+    const bool deep = piece.mostly(piece.deep, kDeepShare) && !by_lung && !piece.cut;
+    if (enhanced_ && deep && ml < kDeepBoneMl) return false;
     return piece.peak_hu >= std::max(kCoreHu, contrast_hu_ + kAboveBloodHu) ||
-           (ml >= kRibMl && piece.peak_hu >= kCoreHu);
+           ((ml >= kRibMl || by_lung) && piece.peak_hu >= kCoreHu);
+  }
+
+  bool at_side(std::size_t at) const {
+    const std::size_t i = at % row_, j = at / row_ % static_cast<std::size_t>(n_.y);
+    return i == 0 || j == 0 || i + 1 == row_ || j + 1 == static_cast<std::size_t>(n_.y);
   }
 
   void mark_left() {
     weigh_contrast();
     const double from_hu = std::max(kFromHu, kMuscleHu + kNoiseAbove * smooth_.noise_sd_hu);
     const std::vector<std::uint8_t> is_deep = enhanced_ ? deep() : std::vector<std::uint8_t>(classes_.size(), 0);
-    std::vector<std::uint8_t> open(classes_.size());
+    std::vector<std::uint8_t> open(classes_.size()), lung(classes_.size());
+    for (std::size_t at = 0; at < lung.size(); ++at) lung[at] = classes_[at] == TissueClass::lung ? 1 : 0;
+    const auto from_lung = distance_from(lung, static_cast<std::uint16_t>(2.0 * kByLungMm * kUnit));
     for (std::size_t at = 0; at < open.size(); ++at)
       open[at] = classes_[at] == TissueClass::soft_tissue && smooth_.hu[at] >= from_hu && !pools_.enhanced(at);
+    const double in_lung_mm = kInLungMm + std::max(volume_.spacing_mm.x, volume_.spacing_mm.y);
     Components pieces(n_, open);
     std::vector<Left> left(pieces.numbers());
     pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
@@ -192,6 +216,9 @@ class BoneFinder {
       for (std::size_t at = begin; at < end; ++at) {
         one.peak_hu = std::max<int>(one.peak_hu, smooth_.hu[at]);
         one.deep += is_deep[at];
+        one.by_lung += from_lung[at] <= kByLungMm * kUnit ? 1 : 0;
+        one.in_lung += from_lung[at] <= in_lung_mm * kUnit ? 1 : 0;
+        one.cut = one.cut || at_side(at);
         one.marrow = one.marrow || (pools_.core[at] != 0 && pools_.pools[pools_.of[at] - 1U].spongy);
       }
       each_face(begin, end, [&](std::size_t other) {

@@ -18,9 +18,13 @@ void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes); 
 // Holes in bone: marrow that bone surrounds in most directions of a slice, and pores that it surrounds in all.
 void fill_marrow(const Volume& volume, std::vector<TissueClass>& classes);
 
-// Of soft tissue, from differences `apart` voxels apart along x, where noise is nearly independent: their median is
-// 0.954 sd.
-double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes, int apart = 3);
+// Of soft tissue, from differences `apart` voxels apart along x, where noise is nearly independent: their `share`
+// smallest are below `in_sd` sd, as those of a normal distribution are.
+struct NoiseFrom {
+  int apart = 3;
+  double share = 0.5, in_sd = 0.954;
+};
+double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes, NoiseFrom from = {});
 
 // Mean HU over [1 2 1] x [1 2 1] / 16 in a slice, its edge repeated: halves noise and keeps a rib's cortex.
 void smooth_slice(const Volume& volume, int k, std::vector<std::int16_t>& smooth);

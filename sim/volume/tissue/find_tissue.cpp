@@ -12,18 +12,6 @@ namespace {
 
 constexpr std::uint8_t kAllBone = 255;
 
-void let_labels_win(const LabelMap& labels, Tissue& tissue_of) {
-  std::vector<TissueClass>& classes = tissue_of.classes;
-  std::vector<std::optional<TissueClass>> tissue;
-  for (const std::string& name : labels.names) tissue.push_back(tissue_of_name(name));
-  if (!tissue.empty()) tissue[0].reset();  // 0 is "no label"
-  for (std::size_t at = 0; at < classes.size(); ++at)
-    if (const auto& known = tissue[labels.label[at]]) {
-      classes[at] = *known;
-      tissue_of.bone_share[at] = *known == TissueClass::bone ? kAllBone : 0;
-    }
-}
-
 std::vector<TissueClass> body_and_air(const Volume& volume, const std::vector<std::uint8_t>& body) {
   std::vector<TissueClass> classes(volume.hu.size());
   std::transform(body.begin(), body.end(), classes.begin(),
@@ -34,13 +22,26 @@ std::vector<TissueClass> body_and_air(const Volume& volume, const std::vector<st
 
 }  // namespace
 
+void let_labels_win(const LabelMap& labels, std::vector<TissueClass>& classes,
+                    std::vector<std::uint8_t>* bone_share) {
+  CHECK(labels.label.size() == classes.size());
+  std::vector<std::optional<TissueClass>> tissue;
+  for (const std::string& name : labels.names) tissue.push_back(tissue_of_name(name));
+  if (!tissue.empty()) tissue[0].reset();  // 0 is "no label"
+  for (std::size_t at = 0; at < classes.size(); ++at)
+    if (const auto& known = tissue[labels.label[at]]) {
+      classes[at] = *known;
+      if (bone_share != nullptr) (*bone_share)[at] = *known == TissueClass::bone ? kAllBone : 0;
+    }
+}
+
 Tissue find_tissue(const Volume& volume, const LabelMap* labels) {
   if (labels != nullptr) CHECK(labels->label.size() == volume.hu.size());
   Tissue made;
   made.classes = body_and_air(volume, body_mask(volume));
   mark_bone_by_shape(volume, made.classes, made.bone_share);
   mark_soft_tissue(volume, made.classes);
-  if (labels != nullptr) let_labels_win(*labels, made);
+  if (labels != nullptr) let_labels_win(*labels, made.classes, &made.bone_share);
   return made;
 }
 
@@ -52,10 +53,9 @@ std::vector<TissueClass> tissue_classes_by_rule_1(const Volume& volume, const La
   if (labels != nullptr) CHECK(labels->label.size() == volume.hu.size());
   Tissue made;
   made.classes = body_and_air(volume, body_mask_by_rule_1(volume));
-  made.bone_share.resize(made.classes.size());
   mark_hard_tissue(volume, made.classes);
   mark_soft_tissue(volume, made.classes);
-  if (labels != nullptr) let_labels_win(*labels, made);
+  if (labels != nullptr) let_labels_win(*labels, made.classes);
   return std::move(made.classes);
 }
 

@@ -19,6 +19,11 @@ struct Tissue {
 // (CHECK). Same input, same bytes; one thread.
 Tissue find_tissue(const Volume& volume, const LabelMap* labels = nullptr);
 
+// A label with a known name (tissue_of_name) is the class of its voxels. Labels, and shares where given: as many as
+// classes (CHECK).
+void let_labels_win(const LabelMap& labels, std::vector<TissueClass>& classes,
+                    std::vector<std::uint8_t>* bone_share = nullptr);
+
 // The classes alone.
 std::vector<TissueClass> tissue_classes(const Volume& volume, const LabelMap* labels = nullptr);
 

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "sim/volume/tissue/class_steps.h"
 
@@ -13,19 +14,23 @@ namespace seldinger::volume {
 namespace pooling {  // files of a folder are compiled as one
 namespace {
 
+constexpr double kCoarseMm3 = 60.0;     // a little less than 4 mm a side
 constexpr double kFineMm = 1.5;         // voxels below are smoothed
 constexpr double kSmoothNoise = 0.375;  // of the noise that [1 2 1] x [1 2 1] / 16 leaves: sqrt(6 / 16)^2
 constexpr int kLeastHu = 105;           // as the plateaus of rule 1: above muscle with its noise
 constexpr double kRadiusMm = 3.5;       // thicker than the blurred cortex of ribs and laminae
 constexpr double kEvenHu = 30.0, kEvenNoise = 3.0, kEvenShare = 0.06;  // mixing of contrast grows with it
+// Marrow with cortex that a noisy coarse picture mixes differs more from voxel to voxel than noise alone.
+constexpr double kSpongyHu = 180.0, kEvenSdHu = 12.0, kEvenSdNoise = 1.4, kEvenSdShare = 0.03;
 constexpr int kRimHu = 45;                // four times the noise of a smoothed noisy picture
 constexpr double kAcrossMarrowMm = 32.0;  // half a vertebral body and a little
 constexpr double kHeldBy = 0.5, kHeldInner = 0.5;
+constexpr double kCoarseHeldBy = 0.42;  // a vessel on bone is by a third
 constexpr int kNoBloodHu = 600;         // blood of an early angiogram stays below 500
 constexpr double kUrineMl = 20.0;       // as bright and even as this, and larger: a bladder full of contrast
 constexpr std::size_t kRaysFrom = 400;  // of a pool's voxels
-constexpr std::size_t kMostPools = 65000;
-constexpr std::size_t kMostCost = 1500, kStepCost = 2;  // HU climbed and a little for the way
+constexpr std::size_t kMostPools = 65000, kLeastCoarseCore = 3;  // fewer are even by chance
+constexpr std::size_t kMostCost = 1500, kStepCost = 2;           // HU climbed and a little for the way
 
 struct Grid {
   explicit Grid(const Volume& volume)
@@ -81,7 +86,9 @@ class Finder {
         hu_(smooth.hu),
         classes_(classes),
         out_(out),
+        coarse_(is_coarse(volume)),
         even_hu_(kEvenHu + kEvenNoise * smooth.noise_sd_hu),
+        sd_hu_(kEvenSdHu + kEvenSdNoise * smooth.noise_sd_hu),
         noise_hu_(static_cast<int>(std::lround(smooth.noise_sd_hu))) {}
 
   void find() {
@@ -114,12 +121,19 @@ class Finder {
           if (hu_[at] < kLeastHu || !open(at)) continue;
           const double most = tolerance(hu_[at]);
           bool even = true;
+          double sum = hu_[at], square = sum * sum, count = 1.0;
           for (std::size_t s = 0; s < steps.size() && even; ++s) {
             const int z = k + places[s].z;
             if (z < 0 || z >= grid_.n.z) continue;  // beyond the volume it goes on
             const std::size_t other = at + static_cast<std::size_t>(steps[s]);
             even = open(other) && std::abs(hu_[other] - hu_[at]) <= most;
+            sum += hu_[other];
+            square += static_cast<double>(hu_[other]) * hu_[other];
+            count += 1.0;
           }
+          const double mean = sum / count;
+          even = even && (!coarse_ || mean < kSpongyHu ||
+                          square / count - mean * mean <= std::pow(sd_hu_ + kEvenSdShare * mean, 2.0));
           if (even) out_.core[at] = 1;
         }
       }
@@ -129,22 +143,30 @@ class Finder {
   void number_cores() {
     std::vector<std::size_t> front;
     for (std::size_t seed = 0; seed < hu_.size(); ++seed) {
-      if (out_.core[seed] == 0 || out_.of[seed] != 0 || out_.pools.size() >= kMostPools) continue;
-      out_.pools.emplace_back();
-      members_.emplace_back();
-      const auto number = static_cast<std::uint16_t>(out_.pools.size());
+      if (out_.core[seed] == 0 || out_.of[seed] != 0) continue;
+      std::vector<std::size_t> members;
+      const auto number = static_cast<std::uint16_t>(out_.pools.size() + 1);
       front.assign(1, seed);
       out_.of[seed] = number;
       while (!front.empty()) {
         const std::size_t at = front.back();
         front.pop_back();
-        members_.back().push_back(at);
+        members.push_back(at);
         grid_.neighbours(at, [&](std::size_t other) {
           if (out_.core[other] == 0 || out_.of[other] != 0 || std::abs(hu_[other] - hu_[at]) > even_hu_) return;
           out_.of[other] = number;
           front.push_back(other);
         });
       }
+      if ((coarse_ && members.size() < kLeastCoarseCore) || out_.pools.size() >= kMostPools) {
+        for (const std::size_t at : members) {
+          out_.core[at] = 0;
+          out_.of[at] = 0;
+        }
+        continue;
+      }
+      out_.pools.emplace_back();
+      members_.push_back(std::move(members));
       std::vector<std::int16_t> values;
       for (const std::size_t at : members_.back()) values.push_back(hu_[at]);
       std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
@@ -242,7 +264,7 @@ class Finder {
         if (share < 0.0) continue;
         ++told;
         sum += share;
-        held += share >= kHeldBy ? 1 : 0;
+        held += share >= (coarse_ ? kCoarseHeldBy : kHeldBy) ? 1 : 0;
       }
       Pool& pool = out_.pools[which];
       const double ml = static_cast<double>(pool.inner) * spacing_mm_.x * spacing_mm_.y * spacing_mm_.z * 1e-3;
@@ -258,7 +280,8 @@ class Finder {
   const std::vector<std::int16_t>& hu_;
   const std::vector<TissueClass>& classes_;
   Pools& out_;
-  double even_hu_;
+  bool coarse_;
+  double even_hu_, sd_hu_;
   int noise_hu_;
   std::vector<std::vector<std::size_t>> members_;
 };
@@ -266,10 +289,18 @@ class Finder {
 }  // namespace
 }  // namespace pooling
 
+bool is_coarse(const Volume& volume) noexcept {
+  return volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z > pooling::kCoarseMm3;
+}
+
 Smooth smooth_of(const Volume& volume, const std::vector<TissueClass>& classes) {
   Smooth made;
   const bool fine = std::max(volume.spacing_mm.x, volume.spacing_mm.y) <= pooling::kFineMm;
-  made.noise_sd_hu = noise_sd_hu(volume, classes, fine ? 3 : 1);  // noise of coarse voxels hangs together less
+  // Noise of coarse voxels hangs together less, and most of their differences are of two tissues.
+  made.noise_sd_hu = noise_sd_hu(volume, classes,
+                                 fine                ? NoiseFrom{}
+                                 : is_coarse(volume) ? NoiseFrom{1, 0.25, 0.451}
+                                                     : NoiseFrom{.apart = 1});
   if (!fine) {
     made.hu = volume.hu;
     return made;

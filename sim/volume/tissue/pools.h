@@ -28,6 +28,10 @@ struct Pools {
   bool enhanced(std::size_t at) const noexcept { return of[at] != 0 && !pools[of[at] - 1U].marrow; }
 };
 
+// Voxels as large as a rib is thick: few are of one tissue, and what noise does to them and what tissue does are
+// hard to part.
+bool is_coarse(const Volume& volume) noexcept;
+
 // HU less noise: over [1 2 1] x [1 2 1] where voxels are fine, as they are where partial volume has averaged
 // already.
 struct Smooth {

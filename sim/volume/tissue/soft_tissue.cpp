@@ -112,8 +112,8 @@ void clear_false_rims(const Volume& volume, std::vector<TissueClass>& classes) {
 
 }  // namespace
 
-double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes, int apart) {
-  const auto step = static_cast<std::size_t>(apart);
+double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes, NoiseFrom from) {
+  const auto step = static_cast<std::size_t>(from.apart);
   std::array<std::size_t, 512> count{};
   std::size_t pairs = 0;
   const auto width = static_cast<std::size_t>(volume.size_voxels.x);
@@ -126,7 +126,8 @@ double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes
   }
   std::size_t below = 0;
   for (std::size_t hu = 0; hu < count.size(); ++hu)
-    if ((below += count[hu]) * 2 >= pairs) return static_cast<double>(hu) / 0.954;
+    if (static_cast<double>(below += count[hu]) >= from.share * static_cast<double>(pairs))
+      return static_cast<double>(hu) / from.in_sd;
   return 0.0;
 }
 

@@ -95,6 +95,20 @@ TEST(WayImpossible, FromUnderTheTableIsNoWayAndFromTheSideIs) {
   EXPECT_EQ(judged(along({50, 50, 0}, {-1, 0, 0}, 50.0)).impossible, 0.0);
 }
 
+TEST(WayImpossible, WhatBeginsInTheBodyShowsNoPuncture) {
+  const auto from = [](double depth_mm) {
+    cases::Recording made = along({0, 0, 0}, {0, 1, 0}, 50.0);
+    std::erase_if(made.poses, [&](const cases::PoseSample& pose) { return pose.tip_lps_mm.y < depth_mm; });
+    std::erase_if(made.frames, [&](const auto& frame) { return frame.t_s < made.poses.front().t_s; });
+    return judged(made);
+  };
+  const Judged touching = from(1.0), inside = from(10.0);
+  EXPECT_EQ(touching.impossible, 0.0);
+  EXPECT_EQ(touching.why, "");
+  EXPECT_EQ(inside.impossible, 1.0);
+  EXPECT_EQ(inside.why, "way_impossible");
+}
+
 TEST(WayImpossible, AnAttemptStoredBeforeItWasAskedKeepsItsGrade) {
   const auto signals = make_signals(in_the_box(), along({0, 50, -50}, {0, 0, 1}, 50.0));
   ASSERT_TRUE(signals);

@@ -173,6 +173,29 @@ TEST_F(AuthoringTest, ALabelMapIsAFileOfTheCase) {
   EXPECT_EQ(code(add_label_map(library_, case_id_, labels)), "bad_labels");
 }
 
+TEST_F(AuthoringTest, ALabelWithATissuesNameIsTheClassOfItsVoxels) {
+  const auto classes = [&] { return load_classes(library_, find_case(library_, case_id_).value()).value(); };
+  const std::vector<volume::TissueClass> before = classes();
+  volume::LabelMap labels;
+  labels.names = {"none", "liver", "something else"};
+  labels.label.assign(sample_volume().hu.size(), 0);
+  labels.label[7] = labels.label[8] = 1;
+  labels.label[9] = 2;
+  ASSERT_TRUE(add_label_map(library_, case_id_, labels));
+  std::vector<volume::TissueClass> wanted = before;
+  wanted[7] = wanted[8] = volume::TissueClass::liver;
+  EXPECT_EQ(classes(), wanted);
+  labels.names = {"none", "vein"};
+  labels.label.assign(labels.label.size(), 0);
+  labels.label[8] = 1;
+  ASSERT_TRUE(add_label_map(library_, case_id_, labels));
+  wanted[8] = volume::TissueClass::vessel;
+  EXPECT_EQ(classes(), wanted) << "the last one wins";
+  // As a map of before schema 48.
+  library_.database().run("UPDATE case_label_map SET wins = 0");
+  EXPECT_EQ(classes(), before);
+}
+
 TEST_F(AuthoringTest, TheSettingComesBack) {
   const CaseSetting setting = full_setting();
   ASSERT_TRUE(set_setting(library_, case_id_, setting));
