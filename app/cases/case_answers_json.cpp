@@ -17,6 +17,7 @@ Json tissue_json(const volume::TissueTold& told) {
     if (told.share[at] > 0.0) share[volume::about(static_cast<volume::TissueClass>(at)).name] = told.share[at];
   return {{"contrast_phase", base::name_of(volume::kContrastPhaseNames, told.contrast.phase)},
           {"brightest_hu", casedb::maybe(told.contrast.brightest_hu)},
+          {"aorta_hu", casedb::maybe(told.contrast.aorta_hu)},
           {"share_of_body", share},
           {"doubts", told.doubts}};
 }

@@ -65,7 +65,9 @@ int run_case_explain(const Arguments& arguments) {
     const std::vector<std::byte> png = png_from_rgb(drawn.rgb(), drawn.width_px(), drawn.height_px());
     write_file(*sheet, std::string(reinterpret_cast<const char*>(png.data()), png.size()));
   }
-  const volume::TissueTold tissue = volume::tell_tissue(*volume, *classes, !row->labels_sha256.empty());
+  const volume::TissueTold tissue =
+      volume::tell_tissue(*volume, *classes, !row->labels_sha256.empty(),
+                          looked_for ? volume::level_of(*organs, volume::FoundOrgan::aorta) : std::nullopt);
   if (arguments.has("--json")) {
     std::fputs(json_of_needs(case_id, row->sight_law, needs, tissue, looked_for ? organs : std::nullopt).c_str(),
                stdout);

@@ -132,8 +132,9 @@ int run_import(const Arguments& arguments) {
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
   tell_same_ct(*library, *row);
-  const volume::TissueTold tissue =
-      volume::tell_tissue(imported->volume, marked.classes, imported->labels.has_value());
+  const volume::TissueTold tissue = volume::tell_tissue(
+      imported->volume, marked.classes, imported->labels.has_value(),
+      marked.organs ? volume::level_of(*marked.organs, volume::FoundOrgan::aorta) : std::nullopt);
   if (arguments.has("--json")) {
     std::fputs(json_of_imported(casedb::load_parts(*library, *row), tissue, marked.organs).c_str(), stdout);
     return kDone;

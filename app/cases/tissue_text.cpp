@@ -30,7 +30,9 @@ void add_to(std::string& list, const std::string& words) {
 
 std::string tissue_text(const volume::TissueTold& told) {
   std::string text = std::string("contrast ") + words_of(told.contrast.phase);
-  if (told.contrast.phase != volume::ContrastPhase::none)
+  if (told.contrast.aorta_hu)
+    text += ": the aorta's blood is at " + std::to_string(*told.contrast.aorta_hu) + " HU";
+  else if (told.contrast.phase != volume::ContrastPhase::none)
     text += ": 30 ml of blood and organs are at " + std::to_string(*told.contrast.brightest_hu) + " HU or more";
   std::array<std::size_t, volume::kTissueClasses> order{};
   std::iota(order.begin(), order.end(), std::size_t{0});

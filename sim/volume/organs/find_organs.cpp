@@ -20,6 +20,12 @@ std::optional<OrganFound> organ_at(const Organs& organs, const glm::dvec3& lps_m
   return std::nullopt;
 }
 
+std::optional<int> level_of(const Organs& organs, FoundOrgan organ) noexcept {
+  for (const OrganFound& one : organs.found)
+    if (one.organ == organ && one.confidence >= kOrganConfidence) return one.level_hu;
+  return std::nullopt;
+}
+
 Organs find_organs(const Volume& volume, const std::vector<TissueClass>& classes) {
   CHECK(classes.size() == volume.hu.size());
   OrganGrid grid = organ_grid(volume, classes);

@@ -60,6 +60,9 @@ constexpr double kOrganConfidence = 0.5;  // from here on it is named
 // What is named at a point of the patient; nothing where nothing is, and beyond the CT.
 std::optional<OrganFound> organ_at(const Organs& organs, const glm::dvec3& lps_mm);
 
+// Of an organ that is named; nothing where it is not.
+std::optional<int> level_of(const Organs& organs, FoundOrgan organ) noexcept;
+
 // Classes: as many as voxels (CHECK). Same input, same answer; one thread.
 Organs find_organs(const Volume& volume, const std::vector<TissueClass>& classes);
 

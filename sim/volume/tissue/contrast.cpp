@@ -16,6 +16,7 @@ namespace {
 // less than 30 ml, reaches 105; a kidney does from the first phase to the last, and to 220 at most; only arteries
 // pass that.
 constexpr int kEnhancedHu = 105, kLateHu = 135, kEarlyHu = 220;
+constexpr int kBloodHu = 75;  // blood without contrast: 30 to 60 (Prokop and Galanski 2003)
 constexpr double kEnoughMl = 30.0;
 constexpr double kBlockMm = 6.0;
 constexpr double kEvenNoise = 1.6, kEvenHu = 8.0;  // as fluid is told
@@ -93,12 +94,19 @@ class Levels {
 }  // namespace
 }  // namespace phases
 
-Contrast contrast_of(const Volume& volume, const std::vector<TissueClass>& classes) {
+Contrast contrast_of(const Volume& volume, const std::vector<TissueClass>& classes, std::optional<int> aorta_hu) {
   using namespace phases;
   CHECK(classes.size() == volume.hu.size());
   Contrast told;
   const Levels levels(volume, classes, noise_sd_hu(volume, classes));
   told.brightest_hu = levels.from_which(kEnoughMl);
+  if (aorta_hu && *aorta_hu >= kBloodHu) {
+    told.aorta_hu = aorta_hu;
+    told.phase = *aorta_hu >= kEarlyHu  ? ContrastPhase::early
+                 : *aorta_hu >= kLateHu ? ContrastPhase::venous
+                                        : ContrastPhase::late;
+    return told;
+  }
   if (!told.brightest_hu || *told.brightest_hu < kEnhancedHu) return told;
   if (*told.brightest_hu >= kEarlyHu) {
     told.phase = ContrastPhase::early;

@@ -24,9 +24,12 @@ struct Contrast {
   std::optional<int> brightest_hu{};
   // Nothing but the brightest is enhanced, as organs would be: it may lie in the bowel.
   bool may_be_swallowed = false;
+  std::optional<int> aorta_hu{};  // as was given: the phase is that of its blood
 };
 
-// Classes: as many as voxels (CHECK).
-Contrast contrast_of(const Volume& volume, const std::vector<TissueClass>& classes);
+// Classes: as many as voxels (CHECK). By the level of the aorta, where it is known; else by what is brightest,
+// which swallowed contrast or a bladder may be.
+Contrast contrast_of(const Volume& volume, const std::vector<TissueClass>& classes,
+                     std::optional<int> aorta_hu = {});
 
 }  // namespace seldinger::volume

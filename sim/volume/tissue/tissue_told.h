@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ struct TissueTold {
   std::vector<std::string> doubts;             // sentences without a full stop, for a person
 };
 
-// Classes: as many as voxels (CHECK); labelled: a label map told some of them.
-TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& classes, bool labelled);
+// Classes: as many as voxels (CHECK); labelled: a label map told some of them; the aorta's level where it is known.
+TissueTold tell_tissue(const Volume& volume, const std::vector<TissueClass>& classes, bool labelled,
+                       std::optional<int> aorta_hu = {});
 
 }  // namespace seldinger::volume

@@ -34,6 +34,18 @@ TEST(Contrast, InTheBowelAloneIsDoubted) {
   EXPECT_TRUE(told.may_be_swallowed);
 }
 
+TEST(Contrast, ThePhaseIsThatOfTheAortaWhereItIsKnown) {
+  const Volume made = trunk_with_a_drink();
+  const auto classes = tissue_classes(made);
+  EXPECT_EQ(contrast_of(made, classes, 160).phase, ContrastPhase::venous);
+  EXPECT_EQ(contrast_of(made, classes, 300).phase, ContrastPhase::early);
+  EXPECT_EQ(contrast_of(made, classes, 95).phase, ContrastPhase::late);
+  EXPECT_EQ(contrast_of(made, classes, 45).phase, ContrastPhase::early) << "not enhanced: no evidence";
+  EXPECT_FALSE(contrast_of(made, classes, 160).may_be_swallowed);
+  const auto doubts = tell_tissue(made, classes, false, 160).doubts;
+  EXPECT_EQ(doubts.front(), "what is brighter than the aorta's blood may be contrast in the bowel or in urine");
+}
+
 TEST(TissueTold, SharesAreOfTheBodyAndDoubtsAreSaid) {
   Volume made = trunk_with_a_drink();
   for (int i = 20; i < 23; ++i)
