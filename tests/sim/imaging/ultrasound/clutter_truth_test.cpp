@@ -104,7 +104,9 @@ Drawn draw(const Scene& s, int i, const Asked& asked, base::Rng& rng) {
   const double fwhm_mm = elevation_fwhm_mm(view.probe, view.probe.frequency_mhz, depth_mm);
   const double tilt_deg = asked.least_tilt_deg + (85.0 - asked.least_tilt_deg) * rng.uniform();
   const glm::dvec3 off_mm(0.0, 0.0, 2.0 * asked.off_widths * fwhm_mm * (rng.uniform() - 0.5));
-  drawn.inserted.needle = needle_through(point_of(view, 16.0, depth_mm) + off_mm, tilt_deg, asked.behind_tip_mm);
+  // Anywhere between two lines: a tip that lies between them is weaker in the picture, and by what is told.
+  const double beam = 15.5 + rng.uniform();
+  drawn.inserted.needle = needle_through(point_of(view, beam, depth_mm) + off_mm, tilt_deg, asked.behind_tip_mm);
   drawn.picture = polar_of(s, view, drawn.inserted);
   add_clutter(view, {}, drawn.picture);
   add_receiver_noise(view.seed, 1, drawn.picture);
