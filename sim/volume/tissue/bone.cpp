@@ -31,10 +31,10 @@ constexpr double kDrainedMl = 100.0;                    // the same with its blu
 constexpr double kDeepMm = 35.0, kDeepBoneMl = 20.0;    // ribs lie above; deeper bones are larger or have marrow
 constexpr double kDeepShare = 0.9;                      // a rib is deep beside the spine only
 constexpr double kByLungMm = 15.0, kByLungShare = 0.5;  // as ribs are named (docs/decisions/0086)
-constexpr double kInLungMm = 2.0, kInLungShare = 0.9;   // and a voxel; a vessel of the lung has lung all around
+constexpr double kInLungMm = 2.0, kInLungShare = 0.8;   // and a voxel; a vessel of the lung has lung all around
 constexpr double kSkinMm = 4.0, kGapMm = 2.0, kUnit = 8.0;
-constexpr int kLeastFatHu = -200, kFatHu = -30;               // the middle between fat, -100, and tissue, 40
-constexpr double kClassShare = 0.4, kCoarseClassShare = 0.3;  // a rib of 7 mm fills a third of many of 5 mm
+constexpr int kLeastFatHu = -200, kFatHu = -30;                // the middle between fat, -100, and tissue, 40
+constexpr double kClassShare = 0.4, kCoarseClassShare = 0.35;  // a rib of 7 mm fills a third of many of 5 mm
 constexpr double kWhole = 255.0;
 constexpr int kLeastMarrowHu = 90;  // below it a voxel is muscle, fat or nearly so
 
@@ -69,10 +69,12 @@ class BoneFinder {
     join_held_pools();
     fill_holes();
     weigh();
-    const double least_share = kWhole * (is_coarse(volume_) ? kCoarseClassShare : kClassShare);
+    // Where a pool reaches, blood makes a voxel brighter too.
+    const bool coarse = is_coarse(volume_);
     for (std::size_t at = 0; at < classes_.size(); ++at) {
       if (classes_[at] == TissueClass::air || classes_[at] == TissueClass::metal) continue;
-      if (share_[at] >= least_share)
+      const double least = coarse && !pools_.enhanced(at) ? kCoarseClassShare : kClassShare;
+      if (share_[at] >= kWhole * least)
         classes_[at] = TissueClass::bone;
       else if (classes_[at] == TissueClass::bone)
         classes_[at] = TissueClass::soft_tissue;
@@ -190,7 +192,7 @@ class BoneFinder {
     const bool deep = piece.mostly(piece.deep, kDeepShare) && !by_lung && !piece.cut;
     if (enhanced_ && deep && ml < kDeepBoneMl) return false;
     return piece.peak_hu >= std::max(kCoreHu, contrast_hu_ + kAboveBloodHu) ||
-           ((ml >= kRibMl || by_lung) && piece.peak_hu >= kCoreHu);
+           ((ml >= kRibMl || (by_lung && is_coarse(volume_))) && piece.peak_hu >= kCoreHu);
   }
 
   bool at_side(std::size_t at) const {

@@ -270,7 +270,7 @@ void back_to_schema_20(Sqlite& old) {
        {"DROP TRIGGER training_case_keeps_its_touch", "ALTER TABLE training_case DROP COLUMN instrument_tip",
         "ALTER TABLE training_case DROP COLUMN touch_law"})
     old.run(later);  // and one law of touch
-  old.run("ALTER TABLE lesion DROP COLUMN lesion_kind");
+  old.run("ALTER TABLE lesion DROP COLUMN lesion_kind; ALTER TABLE case_label_map DROP COLUMN wins");
   for (const char* later :
        {"DROP VIEW consenting", "DROP TRIGGER person_kind_is_immutable",
         "DROP TRIGGER simulated_people_have_no_account", "DROP TRIGGER simulated_people_make_simulated_attempts",

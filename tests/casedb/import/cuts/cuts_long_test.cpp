@@ -103,7 +103,7 @@ struct Asked {
 Asked asked_of(volume::Body body, const volume::Way& way, double vessels) {
   Asked asked{way.spacing_mm <= 2 ? 0.9 : 0.8, 0.85, 0.02};
   if (body == volume::Body::child && way.spacing_mm >= 3) asked.vessel_as_bone = 0.04, asked.rib_as_bone = 0.8;
-  if (body == volume::Body::child && way.spacing_mm >= 5) asked.bone_dice = asked.rib_as_bone = 0.72;
+  if (body == volume::Body::child && way.spacing_mm >= 5) asked.bone_dice = 0.72, asked.rib_as_bone = 0.68;
   constexpr double kFewVoxels = 1000.0, kVoxels = 16.0;
   if (vessels < kFewVoxels) asked.vessel_as_bone = std::max(asked.vessel_as_bone, kVoxels / vessels);
   // Where the aorta forks, before the sacrum, no even inside is left of it to know it by.
