@@ -185,9 +185,10 @@ int run_sample(const Arguments& arguments) {
         sample.organ = base::name_of(volume::kFoundOrganNames, organ->organ);
         sample.organ_confidence = organ->confidence;
       }
-    for (const casedb::StoredLabels& map : *maps) {  // the last one wins
-      const std::string& name = map.labels.names[map.labels.label.at(at)];
-      if (!map.wins || map.labels.label[at] == 0 || is_unnamed(name)) continue;
+    for (const casedb::StoredLabels& map : *maps) {          // the last one wins
+      if (!map.wins || map.labels.label[at] == 0) continue;  // a map that wins is as large as the classes
+      const std::string& name = map.labels.names[map.labels.label[at]];
+      if (is_unnamed(name)) continue;
       sample.organ = name;
       sample.organ_confidence = 1.0;
     }

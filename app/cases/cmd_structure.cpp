@@ -199,8 +199,7 @@ Command case_label_command() {
           .acts = true,
           .summary =
               "Adds a label map (NIfTI, NRRD, MetaImage) to a case; another grid is resampled by the nearest "
-              "voxel. A label "
-              "with the name of a tissue or an organ is the tissue of its voxels from then on.",
+              "voxel. A label with the name of a tissue or an organ is the tissue of its voxels from then on.",
           .run = &run_case_label};
 }
 

@@ -367,4 +367,13 @@ TEST(Files, NoFolderHoldsMoreThanOneCanTakeIn) {
   for (const auto& [folder, files] : count) EXPECT_LE(files, kMostFilesOfAFolder) << folder;
 }
 
+// A file that a shell left behind was committed with the rest: `> shown` in place of a pipe.
+TEST(Files, TheTopHoldsNoFileThatIsNotNamedHere) {
+  const std::set<std::string> named = {
+      ".clang-format",     ".clang-tidy",     ".git",    ".gitignore", "CHANGELOG.md", "CMakeLists.txt",
+      "CMakePresets.json", "CONTRIBUTING.md", "LICENSE", "README.md",  "SECURITY.md",  "run"};
+  for (const fs::directory_entry& one : fs::directory_iterator(kRoot))
+    EXPECT_TRUE(!one.is_regular_file() || named.contains(one.path().filename().string())) << one.path();
+}
+
 }  // namespace
