@@ -717,7 +717,7 @@ CREATE TABLE training_case (
   CHECK (instrument_tip IN ('bevel', 'diamond', 'trocar', 'core')), touch_law TEXT NOT NULL DEFAULT 'steady'
   CHECK (touch_law IN ('steady', 'by_speed', 'organs_move')), breath_law TEXT NOT NULL DEFAULT 'equal_holds'
   CHECK (breath_law IN ('equal_holds', 'drifting_holds', 'sliding_organs')), sight_law TEXT NOT NULL DEFAULT 'half_slice'
-  CHECK (sight_law IN ('half_slice', 'echo', 'scatter', 'clutter', 'material'))) STRICT;
+  CHECK (sight_law IN ('half_slice', 'echo', 'scatter', 'clutter', 'material', 'tilt'))) STRICT;
 
 CREATE TABLE trusted_key (
   public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),

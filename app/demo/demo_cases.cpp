@@ -10,7 +10,7 @@ using Structures = std::vector<DemoStructure>;
 
 // A drill is about one thing, on gel: its rule asks for that and for a hit through one hole, for nothing that is
 // done around a patient. The ball is where the block has it: pictures take it from the volume.
-// `x_mm`, `z_mm`: the planned entry on its top, from where a straight way of 45 to 55° leads to the ball.
+// `x_mm`, `z_mm`: the planned entry on its top, from where a straight way of 36 to 55° leads to the ball.
 DemoCase drill(int number, const char* title, const char* task, DemoSource source, volume::GelBlock block,
                double x_mm, double z_mm) {
   DemoCase made{number, title, source, {}, {}, {}};
@@ -31,7 +31,7 @@ DemoCase find_the_plane() {
   DemoCase made = drill(
       1, "Drill 1: find the plane",
       "Find the ball of water, turn the probe until the needle path and the ball lie in one picture, then hit it.",
-      DemoSource::gel_plane, volume::GelBlock::find_the_plane, -15.0, 29.0);
+      DemoSource::gel_plane, volume::GelBlock::find_the_plane, -16.0, 40.0);  // 36° to the face
   made.setting.rule = rule_of(
       {"hit >= 1", "advance_joint_visible_last_20_mm >= 0.5", "plane_angle_mean <= 8", "skin_punctures <= 1"}, {});
   return made;

@@ -1,12 +1,14 @@
 #include "app/pictures/scene.h"
 
 #include <algorithm>
+#include <span>
 
 #include "app/cli/file.h"
 #include "app/cli/words.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/cases.h"
 #include "casedb/import/import.h"
+#include "sim/case/paint.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/organs.h"
 #include "sim/imaging/ultrasound/view/portal_walls.h"
@@ -26,7 +28,9 @@ base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<st
   return scene;
 }
 
-base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library) {
+namespace {
+
+base::Result<volume::Volume> volume_alone(const Scene& scene, const std::string& library) {
   if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume))
     return volume::rasterize(*analytic);
   if (const auto* built_in = std::get_if<volume::PhantomOptions>(&scene.volume))
@@ -43,8 +47,6 @@ base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& li
   if (!row) return error_of("the scene's case", std::get<VolumeOfCase>(scene.volume).case_id, row.error());
   return casedb::load_volume(*opened, *row);
 }
-
-namespace {
 
 // Classes of the volume, and the labels that tell of a portal vein.
 base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, const volume::Volume& volume,
@@ -73,6 +75,14 @@ base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, co
 
 }  // namespace
 
+base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library) {
+  auto volume = volume_alone(scene, library);
+  if (!volume) return volume.error();
+  for (const DrawnStructure& one : scene.drawn)
+    cases::paint(scene.structures[one.at].shape, {one.hu, false, 0.0}, *volume);
+  return volume;
+}
+
 bool shows_portal_walls(const Scene& scene) noexcept {
   const auto* view = scene.view ? std::get_if<UltrasoundSceneView>(&*scene.view) : nullptr;
   return view == nullptr || imaging::draws_portal_walls(view->view.sight_law);
@@ -82,6 +92,11 @@ base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& vo
   imaging::PortalLumen portal(volume);
   auto classes = classes_of(scene, volume, library, portal);
   if (!classes) return classes.error();
+  for (const DrawnStructure& one : scene.drawn) {
+    const cases::Structure& drawn = scene.structures[one.at];
+    cases::paint_class(drawn.shape, drawn.tissue, volume, *classes);
+    portal.add(std::span(&drawn, 1));
+  }
   SceneTissue tissue{std::move(*classes), {}};
   tissue.echogenicity = imaging::echogenicity(volume, tissue.classes);
   imaging::show_organs(volume, tissue.classes, tissue.echogenicity);

@@ -1,6 +1,7 @@
 // A scene file (docs/scenes/README.md): a volume, what is inserted, and a view.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -61,6 +62,12 @@ struct SceneMotion {
   double drag_mm = 0.0;  // how far the needle's shaft takes tissue along; < 0 on the way out
 };
 
+// A structure of the scene that is drawn into its volume, as a case's may be: every picture shows it.
+struct DrawnStructure {
+  std::size_t at;  // in `structures`
+  double hu;
+};
+
 struct Scene {
   std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume, volume::PhantomOptions> volume;
   imaging::Inserted inserted;
@@ -69,6 +76,7 @@ struct Scene {
   // What a score holds the needle's way against; pictures do not draw them.
   std::optional<glm::dvec3> planned_entry_lps_mm;
   std::vector<cases::Structure> structures;
+  std::vector<DrawnStructure> drawn;  // those of them that have a tissue, later ones over earlier ones
   std::optional<SceneMotion> motion;  // nothing: the patient lies still
   std::optional<View> view;
   std::optional<RoomSceneView> room;  // in its place: no picture of the volume, but of what stands around
@@ -83,8 +91,8 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
 // well. Refused as scene_from_json, `not_found`, `too_large`.
 base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes);
 
-// What each voxel of the scene's volume is: by the labels of a case or of analytic shapes, elsewhere by HU. And how
-// bright by ultrasound: as an attempt of the newest law would show it.
+// What each voxel of the scene's volume is: as what is drawn there says, by the labels of a case or of analytic
+// shapes, elsewhere by HU. And how bright by ultrasound: as an attempt of the newest law would show it.
 struct SceneTissue {
   std::vector<volume::TissueClass> classes;
   std::vector<std::uint8_t> echogenicity;
@@ -92,7 +100,7 @@ struct SceneTissue {
 bool shows_portal_walls(const Scene& scene) noexcept;  // by its view's law of sight
 base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library);
 
-// The scene's volume. A case needs `library`. Refused as import refuses; `no_library`.
+// The scene's volume, with what is drawn into it. A case needs `library`. Refused as import refuses; `no_library`.
 base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library);
 
 }  // namespace seldinger::app

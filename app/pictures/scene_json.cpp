@@ -143,8 +143,8 @@ cases::Tube read_tube(SceneReader& reader, const std::string& where, base::Error
   return tube;
 }
 
-cases::Structure read_structure(const Json& json, const std::string& where, base::Error& error,
-                                std::vector<std::string>& unused) {
+void read_structure(const Json& json, const std::string& where, Scene& scene, base::Error& error,
+                    std::vector<std::string>& unused) {
   SceneReader reader(json, where, error);
   cases::Structure structure;
   structure.name = reader.text("name");
@@ -158,8 +158,16 @@ cases::Structure read_structure(const Json& json, const std::string& where, base
     structure.shape = cases::Ellipsoid{reader.point("center_mm"), reader.point("radii_mm", 0.1, 500.0)};
   else
     structure.shape = read_tube(reader, where, error);
+  // With a tissue it is drawn, with an HU of its own or its class's (docs/decisions/0018).
+  if (reader.has("tissue")) {
+    const auto tissue = volume::tissue_of_name(reader.text("tissue"));
+    if (!tissue) reader.bad("tissue", "is no tissue class");
+    structure.tissue = tissue.value_or(volume::TissueClass{});
+    scene.drawn.push_back({scene.structures.size(),  // where it goes below
+                           reader.number("hu", -1024.0, 32767.0, volume::typical_hu(structure.tissue))});
+  }
   reader.unused(unused);
-  return structure;
+  scene.structures.push_back(std::move(structure));
 }
 
 void read_structures(SceneReader& root, Scene& scene, base::Error& error, std::vector<std::string>& unused) {
@@ -167,8 +175,7 @@ void read_structures(SceneReader& root, Scene& scene, base::Error& error, std::v
   if (!structures.is_array() || structures.size() > kMaxStructures)
     return root.bad("structures", "is not a list of at most " + std::to_string(kMaxStructures));
   for (std::size_t i = 0; i < structures.size(); ++i)
-    scene.structures.push_back(
-        read_structure(structures[i], "structures[" + std::to_string(i) + "]", error, unused));
+    read_structure(structures[i], "structures[" + std::to_string(i) + "]", scene, error, unused);
 }
 
 imaging::MprView read_mpr(const Json& json, base::Error& error, std::vector<std::string>& unused) {

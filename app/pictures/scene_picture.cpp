@@ -13,7 +13,7 @@
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
-#include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/colour_screen.h"
 #include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"

@@ -45,6 +45,15 @@ base::Result<Json> object_in(const std::filesystem::path& path, const char* code
   return json;
 }
 
+// Of a scene's structures those that are drawn into its volume.
+Json drawn_of(const Json& scene) {
+  Json drawn = Json::array();
+  if (scene.contains("structures"))
+    for (const Json& one : scene["structures"])
+      if (one.contains("tissue")) drawn.push_back(one);
+  return drawn;
+}
+
 }  // namespace
 
 base::Result<Sheet> read_sheet(const std::filesystem::path& path) {
@@ -75,13 +84,17 @@ base::Result<Sheet> read_sheet(const std::filesystem::path& path) {
       };
       auto scene = read(merged);
       if (!scene) return scene.error();
-      sheet.rows.back().pictures.push_back(
-          {std::move(*scene), row.scene.parent_path().string() + merged["volume"].dump(), std::nullopt});
+      const auto told = [&row](const Json& of) {
+        return row.scene.parent_path().string() + of["volume"].dump() + drawn_of(of).dump();
+      };
+      const std::string volume_told = told(merged);
+      sheet.rows.back().pictures.push_back({std::move(*scene), volume_told, std::nullopt});
       if (row.minus.is_null() && column.minus.is_null()) continue;
       if (!row.minus.is_null()) merged.merge_patch(row.minus);
       if (!column.minus.is_null()) merged.merge_patch(column.minus);
       auto minus = read(merged);
       if (!minus) return minus.error();
+      if (told(merged) != volume_told) return bad("a picture and its minus differ in their volume");
       sheet.rows.back().pictures.back().minus = std::move(*minus);
     }
   }

@@ -166,32 +166,34 @@ constexpr const char* kByTissue =
     "without the first 1 mm of a further puncture.";
 constexpr const char* kByTissueSeen =
     "1: how far the tip advanced in the tissue, so that breath that slid past a resting hand was advance; 2: "
-    "without the first 1 mm of a further puncture; 3" SELDINGER_BY_HALF_SLICE " 4" SELDINGER_WITHOUT_CLUTTER;
+    "without the first 1 mm of a further puncture; 3" SELDINGER_BY_HALF_SLICE " 4" SELDINGER_WITHOUT_CLUTTER
+    " 5" SELDINGER_AT_ANY_TILT;
 constexpr const char* kByTissueGuided =
     "1: how far the tip advanced in the tissue, so that breath that slid past a resting hand was advance; also "
     "under a needle guide; 2: without the first 1 mm of a further puncture.";
 
 constexpr MetricInfo kAdvanceMetrics[] = {
-    {"advance_visible_share", 5, "share", "Advance visible", Group::picture, Direction::higher_is_better,
+    {"advance_visible_share", 6, "share", "Advance visible", Group::picture, Direction::higher_is_better,
      kUnderProbe | kInPlane,
      "Share of the length by which the hand advanced the tip in tissue while a live picture showed it; moving to "
      "and fro by under 1 mm is not an advance, nor is breath that slides past a hand at rest (as "
      "withdrawals_partial). A frozen picture shows nothing. Null: under_1_mm_of_advance.",
      "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share,
      kMedianShare, kSame | kNothingIsNothing, kByTissueSeen, kAsksForProbesPicture},
-    {"blind_advance", 5, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
+    {"blind_advance", 6, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
      "Length that the hand advanced the tip in tissue while no live picture showed it; as "
      "advance_visible_share counts it.",
      kSites, &blind_advance, kMedianRatio, kSame | kNothingIsNothing, kByTissueSeen, kAsksForProbesPicture},
-    {"blind_advance_max", 5, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
+    {"blind_advance_max", 6, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
      "Longest part of blind_advance from one sight of the tip to the next; a sight lasts 0.2 s or longer, as a "
      "flicker shows nobody where the tip is. A tracking gap neither adds nor ends it.",
      kSites, &blind_advance_max, kMedianRatio,
      kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
      "1: as blind_advance's version 1; one picture of the tip, and a gap, ended it; 2: as blind_advance's version "
-     "2; a picture of the tip in a gap could end it; 3" SELDINGER_BY_HALF_SLICE " 4" SELDINGER_WITHOUT_CLUTTER,
+     "2; a picture of the tip in a gap could end it; 3" SELDINGER_BY_HALF_SLICE " 4" SELDINGER_WITHOUT_CLUTTER
+     " 5" SELDINGER_AT_ANY_TILT,
      kAsksForProbesPicture},
     {"plane_angle_mean", 3, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kFreehand,

@@ -76,7 +76,7 @@ Measured longest_between_sights(const Signals& signals) {
 
 constexpr MetricInfo kLastAdvanceMetrics[] = {
     {"advance_joint_visible_last_20_mm",
-     4,
+     5,
      "share",
      "Both visible near target",
      Group::picture,
@@ -90,9 +90,10 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      &joint_visible_last,
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},
      kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing,
-     "1: without the first 1 mm of a further puncture; 2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_WITHOUT_CLUTTER,
+     "1: without the first 1 mm of a further puncture; 2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_WITHOUT_CLUTTER
+     " 4" SELDINGER_AT_ANY_TILT,
      kAsksForProbesPicture},
-    {"longest_advance_between_sights", 4, "mm", "Advance between sights", Group::picture,
+    {"longest_advance_between_sights", 5, "mm", "Advance between sights", Group::picture,
      Direction::lower_is_better, kPicturePlane | kOutOfPlane | kSkin | kPictures | kMotion | kTissue,
      "Greatest length by which the tip was pushed in tissue from one live picture that showed it to the next, from "
      "the "
@@ -102,7 +103,7 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321", &longest_between_sights,
      kMedianRatio, kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
      "1: a picture of the tip in a gap ended it; without the first 1 mm of a further puncture; "
-     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_WITHOUT_CLUTTER,
+     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_WITHOUT_CLUTTER " 4" SELDINGER_AT_ANY_TILT,
      kAsksForProbesPicture},
 };
 

@@ -69,7 +69,8 @@ constexpr std::uint32_t since(cases::SightLaw law) noexcept {
   return 1U << static_cast<unsigned>(law);
 }
 constexpr std::uint32_t kAsksForHit = since(cases::SightLaw::echo);
-constexpr std::uint32_t kAsksForShaft = since(cases::SightLaw::clutter);      // for any of the needle
+constexpr std::uint32_t kAsksForShaft =
+    since(cases::SightLaw::clutter) | since(cases::SightLaw::tilt);           // for any of the needle
 constexpr std::uint32_t kAsksForProbesPicture = kAsksForHit | kAsksForShaft;  // what pictures under a probe showed
 constexpr std::uint32_t kAsksForAnyPicture =
     kAsksForProbesPicture | since(cases::SightLaw::scatter) | since(cases::SightLaw::material);

@@ -81,13 +81,13 @@ constexpr std::uint32_t kShares =
     kAnyPlace | kAtAnySpeed | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 
 constexpr MetricInfo kVisibilityMetrics[] = {
-    {"vis_joint", 6, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
+    {"vis_joint", 7, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kSkin | kPictures, "As vis_needle, for tip and target at once. Null: as vis_target.",
      kVidal, &share<&Shares::joint_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_BY_HALF_SLICE
-     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE,
+     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE " 6" SELDINGER_AT_ANY_TILT,
      kAsksForAnyPicture},
-    {"vis_needle", 6, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
+    {"vis_needle", 7, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Share of the time in tissue in which a live picture showed the needle's tip. A frozen picture shows nothing, "
      "but its time counts. Under fluoroscopy the share is of the time with a live picture only; a picture lasts "
@@ -95,15 +95,16 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "under_1_s_in_tissue_with_a_live_picture).",
      kVidal, &share<&Shares::needle_s, Shown::needle>, kMedianShare, kShares,
      "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_BY_HALF_SLICE
-     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE,
+     " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE " 6" SELDINGER_AT_ANY_TILT,
      kAsksForAnyPicture},
-    {"vis_shaft", 3, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
+    {"vis_shaft", 4, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "As vis_needle, for any part of the needle: shown without its tip, it misleads. Null: as vis_needle.",
      kJohnson, &share<&Shares::shaft_s, Shown::needle>, kMedianShare, kShares,
-     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
+     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER
+     " 3" SELDINGER_AT_ANY_TILT,
      kAsksForShaft},
-    {"vis_target", 6, "share", "Target visible", Group::picture, Direction::higher_is_better,
+    {"vis_target", 7, "share", "Target visible", Group::picture, Direction::higher_is_better,
      kTarget | kSkin | kPictures,
      "As vis_needle, for the target. Null: as vis_needle; no_view_shows_target (fluoroscope: none did, and none "
      "could: across its whole width the target attenuates under 5 % more or less than what lies around it). Under "
@@ -111,16 +112,16 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "that echoes like what lies around it, or that bone or gas hides from everywhere, is not seen: 0.",
      kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone, and 0 where no picture could show the target; "
-     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER
-     " 5" SELDINGER_WITHOUT_IODINE,
+     "2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE
+     " 6" SELDINGER_AT_ANY_TILT,
      kAsksForAnyPicture},
-    {"vis_joint_session", 6, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
+    {"vis_joint_session", 7, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kPictures,
      "Share of the whole time, gaps left out, in which a live picture showed tip and target at once. Null: "
      "under_1_s, no_view_shows_target.",
      kVidal, &vis_joint_session, kMedianShare, kAnyPlace | kAtAnySpeed,
      "1: 0 where no picture could show the target; 2" SELDINGER_BY_HALF_SLICE " 3" SELDINGER_BY_ECHO
-     " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE,
+     " 4" SELDINGER_WITHOUT_CLUTTER " 5" SELDINGER_WITHOUT_IODINE " 6" SELDINGER_AT_ANY_TILT,
      kAsksForAnyPicture},
     {"vis_joint_2_mm", 2, "share", "Both within 2 mm", Group::picture, Direction::higher_is_better,
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
@@ -132,12 +133,13 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
      "As vis_joint_2_mm, within 5 mm. Null: as vis_needle.", kPerk, &share<&Shares::joint_5_mm_s, Shown::places>,
      kMedianShare, kShares, "1: of the time with a live picture alone: freezing it took bad time out."},
-    {"visible_needle_length", 3, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
+    {"visible_needle_length", 4, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Mean, over the time that vis_needle counts, of the shaft's length that the picture showed. Null: as "
      "vis_needle.",
      kJohnson, &share<&Shares::needle_length_mm_s, Shown::needle>, kMedianRatio, kShares,
-     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER,
+     "1: of the time with a live picture alone: freezing it took bad time out; 2" SELDINGER_WITHOUT_CLUTTER
+     " 3" SELDINGER_AT_ANY_TILT,
      kAsksForShaft},
 };
 

@@ -37,11 +37,11 @@ simulators, mean ± SD or median and quartiles, each with its source, of the sam
 ![Simulated novices, intermediates and experts in twelve metrics, and published distributions below them](benchmarks/simulated-distributions.svg)
 
 Of twelve published distributions with a spread, simulated people of the nearest level lie in that of four: two of the
-whole time, one of the distance to the target, one of withdrawals. They take longer over the whole (medians 86 to 89 s; published medians 29 to 38 s, means 46
+whole time, one of the distance to the target, one of withdrawals. They take longer over the whole (medians 85 to 90 s; published medians 29 to 38 s, means 46
 and 136 s), go a sixth to an eighth of the way in tissue that residents went in a model of the spine and sweep a twentieth or less
-of their area, and hit at the first pass in 28 to 35 % where 76 to 100 % was published. The tasks are others (a spine, a vein, a
+of their area, and hit at the first pass in 28 to 34 % where 76 to 100 % was published. The tasks are others (a spine, a vein, a
 breast), and which level is nearest is our judgement, so this shows what differs, not why. One study of those read gives the spread of
-advanced users (28.5 s, 24 to 40; simulated experts 85.7 s), none that of what the picture showed: sight is held against nothing.
+advanced users (28.5 s, 24 to 40; simulated experts 84.9 s), none that of what the picture showed: sight is held against nothing.
 
 ### Beside what was published
 
@@ -55,7 +55,7 @@ in its 95 % interval. All eleven figures used for the fit lie within; of the eig
 | insertion through tissues is realistic, d | 0.17 (-1.05 to 1.39) | 0.52 | 0.35 | yes |
 | level of realism, d | -0.31 (-1.54 to 0.91) | 1.65 | 1.96, of the interval 0.74 | no |
 | potential tissue damage with training (Keri 2015), ratio | 0.31 | 0.83 | 0.52 | no |
-| path inefficiency after practice (Xia 2018), ratio | 0.36 | 0.98 | 0.62 | no |
+| path inefficiency after practice (Xia 2018), ratio | 0.36 | 0.96 | 0.60 | no |
 | needle's path after practice (Xia 2018), ratio | 0.71 | 0.95 | 0.24 | no |
 | first pass (BMC Med. Educ. 2024), share of novices | 0.81 | 0.28 | 0.53 | no |
 
@@ -64,13 +64,13 @@ novices and 500 experts whom the surrogate does not know:
 
 - Level of realism: table 6.3 of the same thesis, which people answer by, says 1.79 where table 6.2 says -0.31. No one group can show both.
 - What is swept: practice of twenty attempts brings novices 0.68 of the 1.2 standard deviations that experts are ahead; even
-  experts sweep 0.68 of novices' area (0.62 of whole attempts), so no practice here comes to 0.31.
-- Inefficiency: who draws the needle back goes some three times as far in tissue (inefficiency of novices 256 % with, 28 % without), and experts
-  do so nearly as often as novices (54 and 58 times in a hundred whole attempts): who sees more misses corrects more. Experts' is
-  0.93 of novices' (0.78 of whole attempts).
-- The needle's path: experts' is 0.95 of novices' (0.85 of whole attempts). Of 680 mm most lies outside the body; which cannot be so of the
+  experts sweep 0.69 of novices' area (0.67 of whole attempts), so no practice here comes to 0.31.
+- Inefficiency: who draws the needle back goes some three times as far in tissue (inefficiency of novices 259 % with, 10 % without), and experts
+  do so as often as novices (41 and 42 times in a hundred whole attempts): who sees more misses corrects more. Experts' is
+  0.90 of novices' (0.79 of whole attempts).
+- The needle's path: experts' is 0.95 of novices' (0.85 of whole attempts). Of 650 mm most lies outside the body; which cannot be so of the
   published 58 mm.
-- First pass: a partial withdrawal rules it out here, and four in ten have one. Hit with one puncture, whatever is drawn back,
+- First pass: a partial withdrawal rules it out here, and more than three in ten have one. Hit with one puncture, whatever is drawn back,
   novices do in 51 % of whole attempts and experts in 81 %; the published 81 % are of novices at another simulator.
 
 None of these is fitted. A steeper practice, or fewer corrections by the able, would be a new model of people: what was kept out

@@ -27,7 +27,9 @@ struct PuncturePlan {
   // Without a picture under a probe, laid aside.
   cases::Approach approach = cases::Approach::in_plane;
   cases::ToolPose probe;
-  cases::ToolPose probe_first;  // out of plane: over the first of the way, from where it slides to `probe`
+  // Over the first of the way: out of plane it slides from there to `probe`, in plane it is rocked from there.
+  cases::ToolPose probe_first;
+  double pressed_mm = 0.0;                  // deeper than it takes for the ends of the probe's face to touch
   std::optional<cases::Picture> picture{};  // to be set at that probe, where `looks_from` chose it
   // From this insertion on the picture shows a tip that keeps to the plan; before, it is beside the picture.
   double tip_shows_from_mm = 0.0;

@@ -21,6 +21,18 @@ cases::ToolPose fanned_to(cases::ToolPose probe, const glm::dvec3& p) {
   return probe;
 }
 
+// In its plane, rocked little by little as the needle goes in.
+cases::ToolPose rocked_over(const PuncturePlan& plan, double inserted_mm) noexcept {
+  const double share = plan.depth_mm > 0.0 ? std::clamp(inserted_mm / plan.depth_mm, 0.0, 1.0) : 1.0;
+  const cases::ToolPose &first = plan.probe_first, &last = plan.probe;
+  if (share == 1.0 || first.axis == last.axis) return last;
+  cases::ToolPose probe = last;
+  probe.position_lps_mm = first.position_lps_mm + share * (last.position_lps_mm - first.position_lps_mm);
+  probe.axis = glm::normalize(first.axis + share * (last.axis - first.axis));
+  probe.side = glm::normalize(last.side - probe.axis * glm::dot(last.side, probe.axis));
+  return probe;
+}
+
 }  // namespace
 
 glm::dvec3 plane_normal(const cases::ToolPose& probe) noexcept {
@@ -28,7 +40,7 @@ glm::dvec3 plane_normal(const cases::ToolPose& probe) noexcept {
 }
 
 cases::ToolPose probe_over(const PuncturePlan& plan, double inserted_mm) noexcept {
-  if (plan.approach == cases::Approach::in_plane) return plan.probe;
+  if (plan.approach == cases::Approach::in_plane) return rocked_over(plan, inserted_mm);
   const glm::dvec3 tip = plan.entry_lps_mm + inserted_mm * plan.direction;
   const glm::dvec3 slide = plan.probe.position_lps_mm - plan.probe_first.position_lps_mm;
   const glm::dvec3 normal = plane_normal(plan.probe);

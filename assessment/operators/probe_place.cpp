@@ -1,13 +1,15 @@
 #include "assessment/operators/probe_place.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "assessment/operators/probe_over.h"
 #include "sim/base/exact_math.h"
@@ -64,11 +66,17 @@ struct Stand {
 };
 
 // Where to look from: about the way, off the way, and how far the probe is rocked in its plane (heel and toe: one
-// end of its face digs in) from standing upright on the skin, where all of its face touches.
+// end of its face digs in) from standing upright on the skin, where all of its face touches: when the needle is at
+// the target, and when it enters. A tip that goes deeper under the probe is met squarely by beams that lean towards
+// it.
 struct Place {
-  double azimuth_deg = 0.0, tilt_deg = 0.0, rocked_deg = 0.0;
+  double azimuth_deg = 0.0, tilt_deg = 0.0, rocked_deg = 0.0, rocked_first_deg = 0.0;
+  double pressed_mm = 0.0;  // as PuncturePlan's
 };
 constexpr double kAzimuthStepDeg = 30.0, kMostRockedDeg = 40.0, kLeastTiltDeg = 15.0, kMostTiltDeg = 85.0;
+// On a round flank the end of a rocked face lifts off, and a firm hand puts it down again (design).
+constexpr double kMostPressedMm = 12.0, kPressPrice = 0.3;
+constexpr std::size_t kClimbs = 3;  // from so many places of a coarse grid, to the best about each
 
 std::optional<Stand> stand_at(const cases::MeshIndex& skin, const PathLimits& limits, const PuncturePlan& plan,
                               const Place& place) {
@@ -97,11 +105,14 @@ std::optional<Stand> stand_at(const cases::MeshIndex& skin, const PathLimits& li
 }
 
 // In the plane of the way.
-void stand_along(const Stand& stand, const glm::dvec3& axis, PuncturePlan& plan) {
-  plan.probe.position_lps_mm = stand.origin;
-  plan.probe.axis = axis;
-  plan.probe.side = glm::normalize(plan.direction - axis * glm::dot(plan.direction, axis));
-  plan.probe_first = plan.probe;
+cases::ToolPose along_way(const Stand& stand, const glm::dvec3& axis, const PuncturePlan& plan) {
+  return {stand.origin, axis, glm::normalize(plan.direction - axis * glm::dot(plan.direction, axis))};
+}
+
+glm::dvec3 rocked(const Stand& stand, double by_deg) {
+  const double by = by_deg * kPlaceRadPerDeg;
+  return glm::normalize(stand.upright * base::exact_cos(by) +
+                        glm::cross(stand.across, stand.upright) * base::exact_sin(by));
 }
 
 // Across the way: the plane holds target and origin, and its first place is as near to the entry as the needle
@@ -129,87 +140,131 @@ double price(const PathLimits& limits, const PuncturePlan& plan, const ProbeView
   const double angle_deg = base::exact_acos(std::abs(glm::dot(plan.direction, plan.probe.axis))) / kPlaceRadPerDeg;
   const double sum = kBlindPrice * std::max(0.0, view.tip_shows_from_mm - kBlindFreeMm) +
                      kShadowPrice * view.shadow_db + kDepthPrice * plan.depth_mm +
-                     kSteepPrice * std::max(0.0, kSteepDeg - angle_deg);
+                     kSteepPrice * std::max(0.0, kSteepDeg - angle_deg) + kPressPrice * plan.pressed_mm;
   if (limits.approach == cases::Approach::in_plane) return sum + kUnseenPrice * unseen_mm + kDepthPrice * probe_mm;
   const double askew = vessel ? std::min(1.0, std::abs(glm::dot(*vessel, plan.probe.side))) : 0.0;
   const double askew_deg = vessel ? 90.0 - base::exact_acos(askew) / kPlaceRadPerDeg : 0.0;
   return sum + kOverPrice * probe_mm + kAskewPrice * askew_deg;
 }
 
+// A plan whose probe stands at such a place, and how good it is there.
+struct Judged {
+  Place place;
+  PuncturePlan plan;
+  double score = 0.0;
+};
+
+class PlaceJudge {
+ public:
+  PlaceJudge(const cases::MeshIndex& skin, const PathLimits& limits, const PuncturePlan& plan)
+      : skin_(skin), limits_(limits), plan_(plan), across_(limits.approach == cases::Approach::out_of_plane) {
+    plan_.approach = limits.approach;
+    if (across_) vessel_ = vessel_along(limits.structures, plan.target_lps_mm);
+  }
+  std::optional<Judged> judge(const Place& place) const {
+    const auto stand = stand_at(skin_, limits_, plan_, place);
+    if (!stand) return std::nullopt;
+    Judged judged{place, plan_};
+    PuncturePlan& held = judged.plan;
+    if (across_) {
+      if (!stand_across(skin_, *stand, held)) return std::nullopt;
+    } else if (limits_.looks_from) {
+      held.probe = along_way(*stand, rocked(*stand, place.rocked_deg), held);
+      held.probe_first = along_way(*stand, rocked(*stand, place.rocked_first_deg), held);
+      held.pressed_mm = place.pressed_mm;
+    } else {
+      held.probe = held.probe_first = along_way(*stand, -stand->outward, held);
+    }
+    if (!limits_.looks_from) {
+      const double apart_mm = glm::distance(stand->origin, plan_.entry_lps_mm);
+      judged.score = 1.0 / (stand->distance_mm + std::abs(apart_mm - 45.0));
+      return judged;
+    }
+    const auto view = limits_.looks_from(held);
+    if (!view) return std::nullopt;
+    judged.score = -price(limits_, held, *view, stand->distance_mm, vessel_);
+    held.probe = view->probe;
+    held.probe_first = view->probe_first;
+    held.picture = view->picture;
+    held.tip_shows_from_mm = view->tip_shows_from_mm;
+    return judged;
+  }
+  // The best of each tilt off the way on a coarse grid, the best first.
+  std::vector<Judged> coarse() const {
+    std::vector<Judged> best;
+    for (const double tilt_deg : tilts_deg()) {
+      std::optional<Judged> best_here;
+      for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += kAzimuthStepDeg)
+        for (const Place& by : rocks())
+          if (auto judged = judge({azimuth_deg, tilt_deg, by.rocked_deg, by.rocked_first_deg, by.pressed_mm});
+              judged && (!best_here || judged->score > best_here->score))
+            best_here = std::move(judged);
+      if (best_here) best.push_back(std::move(*best_here));
+    }
+    std::stable_sort(best.begin(), best.end(), [](const Judged& a, const Judged& b) { return a.score > b.score; });
+    return best;
+  }
+  // The best about it.
+  Judged climbed(Judged nearest) const {
+    for (double step = limits_.looks_from ? 0.5 : 0.0; step > 0.03;) {
+      bool better = false;
+      for (const double sign : {-1.0, 1.0})
+        for (int which = 0; which < (across_ ? 2 : 6); ++which) {
+          auto judged = judge(moved(nearest.place, which, sign * step));
+          if (!judged || judged->score <= nearest.score) continue;
+          nearest = std::move(*judged);
+          better = true;
+        }
+      if (!better) step /= 2.0;
+    }
+    return nearest;
+  }
+
+ private:
+  std::span<const double> tilts_deg() const {
+    static constexpr std::array kDeg{50.0, 40.0, 60.0, 30.0, 70.0, 20.0, 80.0};
+    return std::span(kDeg).first(!limits_.looks_from ? 4 : across_ ? 6 : 7);
+  }
+  std::span<const Place> rocks() const {
+    static constexpr double kPressed = 0.5 * kMostPressedMm;
+    static constexpr std::array kRocks{Place{},
+                                       Place{0, 0, -20, -20, 0},
+                                       Place{0, 0, 20, 20, 0},
+                                       Place{0, 0, -20, 0, 0},
+                                       Place{0, 0, 20, 0, 0},
+                                       Place{0, 0, -20, -20, kPressed},
+                                       Place{0, 0, 20, 20, kPressed}};
+    return std::span(kRocks).first(limits_.looks_from && !across_ ? kRocks.size() : 1);
+  }
+  static Place moved(Place place, int which, double by) {
+    const auto rock = [by](double deg) { return std::clamp(deg + by * 20.0, -kMostRockedDeg, kMostRockedDeg); };
+    if (which == 0) place.azimuth_deg += by * kAzimuthStepDeg;
+    if (which == 1) place.tilt_deg = std::clamp(place.tilt_deg + by * 10.0, kLeastTiltDeg, kMostTiltDeg);
+    if (which == 2 || which == 5) place.rocked_deg = rock(place.rocked_deg);
+    if (which == 3 || which == 5) place.rocked_first_deg = rock(place.rocked_first_deg);
+    if (which == 4) place.pressed_mm = std::clamp(place.pressed_mm + by * kMostPressedMm, 0.0, kMostPressedMm);
+    return place;
+  }
+
+  const cases::MeshIndex& skin_;
+  const PathLimits& limits_;
+  PuncturePlan plan_;
+  bool across_;
+  std::optional<glm::dvec3> vessel_;
+};
+
 }  // namespace
 
 std::optional<double> place_probe(const cases::MeshIndex& skin, const PathLimits& limits, PuncturePlan& plan) {
-  const bool across = limits.approach == cases::Approach::out_of_plane;
-  plan.approach = limits.approach;
-  const auto vessel = across ? vessel_along(limits.structures, plan.target_lps_mm) : std::nullopt;
-  double best = -std::numeric_limits<double>::infinity();
-  PuncturePlan chosen = plan;
-  const auto consider = [&](const Place& place) {
-    const auto stand = stand_at(skin, limits, plan, place);
-    if (!stand) return false;
-    PuncturePlan held = plan;
-    double score = 0.0;
-    if (across) {
-      if (!stand_across(skin, *stand, held)) return false;
-    } else if (limits.looks_from) {
-      const double rocked = place.rocked_deg * kPlaceRadPerDeg;
-      stand_along(*stand,
-                  glm::normalize(stand->upright * base::exact_cos(rocked) +
-                                 glm::cross(stand->across, stand->upright) * base::exact_sin(rocked)),
-                  held);
-    } else {
-      stand_along(*stand, -stand->outward, held);
-    }
-    if (limits.looks_from) {
-      const auto view = limits.looks_from(held);
-      if (!view) return false;
-      score = -price(limits, held, *view, stand->distance_mm, vessel);
-      held.probe = view->probe;
-      held.probe_first = view->probe_first;
-      held.picture = view->picture;
-      held.tip_shows_from_mm = view->tip_shows_from_mm;
-    } else {
-      score = 1.0 / (stand->distance_mm + std::abs(glm::distance(stand->origin, plan.entry_lps_mm) - 45.0));
-    }
-    if (score <= best) return false;
-    best = score;
-    chosen = held;
-    return true;
-  };
-
-  Place nearest;
-  const auto try_all = [&](std::initializer_list<double> tilts_deg, std::initializer_list<double> rocked_deg) {
-    for (const double tilt_deg : tilts_deg)
-      for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += kAzimuthStepDeg)
-        for (const double rocked : rocked_deg)
-          if (const Place place{azimuth_deg, tilt_deg, rocked}; consider(place)) nearest = place;
-  };
-  if (!limits.looks_from)
-    try_all({50.0, 40.0, 60.0, 30.0}, {0.0});
-  else if (across)
-    try_all({50.0, 40.0, 60.0, 30.0, 70.0, 20.0}, {0.0});
-  else
-    try_all({50.0, 40.0, 60.0, 30.0, 70.0, 20.0, 80.0}, {0.0, -20.0, 20.0});
-  if (std::isinf(best)) return std::nullopt;
-  // From the best of a coarse grid to the best about it.
-  for (double step = limits.looks_from ? 0.5 : 0.0; step > 0.03;) {
-    bool better = false;
-    for (const double sign : {-1.0, 1.0})
-      for (int which = 0; which < (across ? 2 : 3); ++which) {
-        Place place = nearest;
-        if (which == 0) place.azimuth_deg += sign * step * kAzimuthStepDeg;
-        if (which == 1)
-          place.tilt_deg = std::clamp(place.tilt_deg + sign * step * 10.0, kLeastTiltDeg, kMostTiltDeg);
-        if (which == 2)
-          place.rocked_deg = std::clamp(place.rocked_deg + sign * step * 20.0, -kMostRockedDeg, kMostRockedDeg);
-        if (!consider(place)) continue;
-        nearest = place;
-        better = true;
-      }
-    if (!better) step /= 2.0;
-  }
-  plan = chosen;
-  return best;
+  const PlaceJudge judge(skin, limits, plan);
+  std::optional<Judged> best;
+  std::vector<Judged> coarse = judge.coarse();
+  for (std::size_t i = 0; i < std::min(coarse.size(), kClimbs); ++i)
+    if (Judged climbed = judge.climbed(std::move(coarse[i])); !best || climbed.score > best->score)
+      best = std::move(climbed);
+  if (!best) return std::nullopt;
+  plan = best->plan;
+  return best->score;
 }
 
 }  // namespace seldinger::assessment

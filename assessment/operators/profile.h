@@ -14,7 +14,7 @@ namespace seldinger::assessment {
 
 // Who acts otherwise for the same skills and seed has another version: what was simulated of different ones is not
 // mixed. It is raised with the hashes in tests/assessment/operators.
-constexpr int kOperatorVersion = 1;
+constexpr int kOperatorVersion = 2;
 
 // Each is a row of skill_fields(), which tells unit, range, values and what it means.
 struct Skills {

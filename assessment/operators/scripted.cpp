@@ -340,7 +340,7 @@ void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
   const bool searching = lost_ && !going_blind_;
   const double share = std::min(1.0, dt_s / profile_.realign_s), back = share / kBackTimes;
   alignment_ += ((searching ? 0.0 : 1.0) - alignment_) * (searching ? share : back);
-  probe = plan_.probe;
+  probe = probe_over(plan_, inserted_mm_);
   if (across_) {
     PuncturePlan as_held = plan_;
     as_held.entry_lps_mm = entry_;

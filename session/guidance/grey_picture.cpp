@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/colour_screen.h"
 
 namespace seldinger::session {
 

@@ -81,6 +81,7 @@ void UltrasoundPainter::develop(ShownPicture& shown) {
   if (!cine) return;
   if (!converter_ || converted_depth_mm_ != cine->view.depth_mm) {
     converter_.emplace(cine->view, imaging::DisplaySize{});
+    colour_screen_.reset();
     converted_depth_mm_ = cine->view.depth_mm;
   }
   converter_->grey(cine->view, console_.knobs(), cine->picture, shown.picture.grey);
@@ -92,7 +93,7 @@ void UltrasoundPainter::develop(ShownPicture& shown) {
                             static_cast<std::size_t>(shown.picture.width_px));
   shown.picture.colour.clear();
   if (cine->colour) {
-    imaging::colour_numbers(*converter_, console_.knobs(), *cine->colour, shown.picture.colour);
+    imaging::colour_numbers(colour_screen_, *converter_, console_.knobs(), *cine->colour, shown.picture.colour);
     shown.picture.colour.resize(shown.picture.grey.size());
   }
   shown.pixel_mm = converter_->pixel_mm();

@@ -8,6 +8,7 @@
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/case/case.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/colour_screen.h"
 #include "sim/imaging/ultrasound/console.h"
 
 namespace seldinger::session {
@@ -37,6 +38,7 @@ class UltrasoundPainter : public ScreenPainter {
   imaging::UltrasoundMethod method_ = imaging::UltrasoundMethod::scatterers;
   imaging::Console console_;
   std::optional<imaging::ScanConverter> converter_;
+  std::optional<imaging::ColourScreen> colour_screen_;  // of converter_
   double converted_depth_mm_ = 0.0;
   imaging::PolarPicture polar_;
   std::uint64_t pictures_ = 0;

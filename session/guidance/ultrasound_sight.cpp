@@ -7,6 +7,7 @@
 
 #include "assessment/operators/probe_over.h"
 #include "sim/base/check.h"
+#include "sim/imaging/ultrasound/colour_screen.h"
 #include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/mirror.h"
@@ -162,8 +163,9 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   if (plan.approach == cases::Approach::in_plane && beside_mm < half_face_mm(probe) + kBesideFaceMm)
     return std::nullopt;
   assessment::PuncturePlan pressed = plan;
-  pressed.probe.position_lps_mm += press_mm(probe) * pressed.probe.axis;
-  pressed.probe_first.position_lps_mm += press_mm(probe) * pressed.probe_first.axis;
+  const double deep_mm = press_mm(probe) + plan.pressed_mm;
+  pressed.probe.position_lps_mm += deep_mm * pressed.probe.axis;
+  pressed.probe_first.position_lps_mm += deep_mm * pressed.probe_first.axis;
   const auto needle = [&](double inserted_mm) {
     return imaging::needle_pose(scene_.instrument, plan.entry_lps_mm + inserted_mm * plan.direction,
                                 plan.direction);
@@ -173,11 +175,15 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   const imaging::Visible seen =
       imaging::ultrasound_visible(tissue_, view, {needle(plan.depth_mm), {target}}, depths).visible;
   if (!seen.joint) return std::nullopt;
+  if (plan.approach == cases::Approach::in_plane && pressed.probe_first.axis != pressed.probe.axis &&
+      !see(held(unheld, pressed.probe_first), {std::nullopt, {target}}, {}).visible.target)
+    return std::nullopt;
   const auto tip_shows = [&](double inserted_mm) {
+    const imaging::UltrasoundView there = held(unheld, assessment::probe_over(pressed, inserted_mm));
     const imaging::Inserted inserted{needle(inserted_mm), {}};
-    if (plan.approach == cases::Approach::out_of_plane)
-      return see(held(unheld, assessment::probe_over(pressed, inserted_mm)), inserted, {}).visible.needle_tip;
-    return imaging::needle_level(tissue_, view, inserted, depths, 0.0).stands_out();
+    if (plan.approach == cases::Approach::out_of_plane) return see(there, inserted, {}).visible.needle_tip;
+    const std::vector<float> beside = element_depths(scene_.skin_index, there, kContactStride);
+    return imaging::needle_level(tissue_, there, inserted, beside, 0.0).stands_out();
   };
   double shows_from_mm = plan.depth_mm;
   for (double asked_mm = shows_from_mm; asked_mm > 0.0 && shows_from_mm == asked_mm;) {
@@ -204,6 +210,7 @@ void UltrasoundSight::draw_on(gpu::Context& context) {
 struct UltrasoundSight::Screen {
   explicit Screen(const imaging::UltrasoundView& view) : converter(view, {}), depth_mm(view.depth_mm) {}
   imaging::ScanConverter converter;
+  std::optional<imaging::ColourScreen> colour;
   double depth_mm;
   imaging::PolarPicture polar;
 };
@@ -231,7 +238,7 @@ imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, con
       gpu_->polar(look, {needle, scene_.lesions}, depths, received, moved);
     else
       imaging::ultrasound_polar(tissue_, look, {needle, scene_.lesions}, depths, received, moved);
-    imaging::add_clutter(look, depths, received);
+    clutter_.add(look, depths, received);
     imaging::add_receiver_noise(seed, number, received);
   };
   if (!(view.compound_deg > 0.0)) {
@@ -286,7 +293,7 @@ GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const cases::
       polar(probe, console, needle, seed, frame, screen_->polar, displacement, t_s);
   converter.grey(view, {}, screen_->polar, picture.grey);
   if (const auto flow = colour(probe, console, needle, t_s, displacement))
-    imaging::colour_numbers(converter, {}, *flow, picture.colour);
+    imaging::colour_numbers(screen_->colour, converter, {}, *flow, picture.colour);
   picture.width_px = converter.width_px();
   picture.height_px =
       std::min(converter.height_px(),

@@ -107,6 +107,7 @@ class UltrasoundSight {
   tissue::BloodFlow flow_;
   std::shared_ptr<Screen> screen_;
   std::shared_ptr<Compounded> compounded_;
+  imaging::Clutter clutter_;
   imaging::UltrasoundMethod method_ = imaging::UltrasoundMethod::scatterers;
   std::shared_ptr<imaging::UltrasoundGpu> gpu_;
 };

@@ -61,21 +61,17 @@ struct DisplacementPoints {
   int newton_steps;
 };
 
-// Of q ≥ 0: x its arc tangent, to 1e-9, y q less that, to 1e-9 of itself: below 1/4 by its series, as the
-// difference would leave float no digits.
+// Of q > 0: x its arc tangent, to 1e-9, y q less that, to 1e-9 of itself: below 1/4 by its series, as the
+// difference would leave float no digits. Both forms are computed and one is chosen, here and below: without
+// branches compilers run several places at a time.
 SHARED real4 atan_and_rest(real q) {
-  real4 both = real4(0.0);
-  if (q < 0.25) {
-    real s = q * q;
-    both.y =
-        q * s *
-        (real(1.0 / 3.0) -
-         s * (real(1.0 / 5.0) -
-              s * (real(1.0 / 7.0) - s * (real(1.0 / 9.0) - s * (real(1.0 / 11.0) -
-                                                                 s * (real(1.0 / 13.0) - s * real(1.0 / 15.0)))))));
-    both.x = q - both.y;
-    return both;
-  }
+  real q_2 = q * q;
+  real rest = q * q_2 *
+              (real(1.0 / 3.0) -
+               q_2 * (real(1.0 / 5.0) -
+                      q_2 * (real(1.0 / 7.0) -
+                             q_2 * (real(1.0 / 9.0) - q_2 * (real(1.0 / 11.0) -
+                                                             q_2 * (real(1.0 / 13.0) - q_2 * real(1.0 / 15.0)))))));
   // atan q = 2 atan(q / (1 + √(1 + q²))), three times, which leaves at most tan(π/16); by 1/q, so that nothing
   // overflows.
   real inverse = real(1.0) / q;
@@ -83,11 +79,13 @@ SHARED real4 atan_and_rest(real q) {
   t = t / (real(1.0) + sqrt(real(1.0) + t * t));
   t = t / (real(1.0) + sqrt(real(1.0) + t * t));
   real s = t * t;
-  both.x = real(8.0) * t *
-           (real(1.0) -
-            s * (real(1.0 / 3.0) -
-                 s * (real(1.0 / 5.0) - s * (real(1.0 / 7.0) - s * (real(1.0 / 9.0) - s * real(1.0 / 11.0))))));
-  both.y = q - both.x;
+  real angle = real(8.0) * t *
+               (real(1.0) -
+                s * (real(1.0 / 3.0) -
+                     s * (real(1.0 / 5.0) - s * (real(1.0 / 7.0) - s * (real(1.0 / 9.0) - s * real(1.0 / 11.0))))));
+  real4 both = real4(0.0);
+  both.x = q < 0.25 ? q - rest : angle;
+  both.y = q < 0.25 ? rest : q - angle;
   return both;
 }
 
@@ -146,16 +144,18 @@ SHARED DiskPotential disk_potential(real r, real z) {
 SHARED real4 displacement_under_disk(real r, real z, real h) {
   real4 moved = real4(0.0);
   real deep = max(z, real(1e-5));  // on the disk itself l is 0; 1e-5 radii are nothing
-  if (h > 0.0 && deep >= h) return moved;
   DiskPotential p = disk_potential(r, deep);
   moved.x = -deep * p.by_r;
   moved.y = p.value - deep * p.by_z;
   if (h > 0.0) {
-    real mirrored = real(2.0) * h - deep;
+    bool in_bone = deep >= h;
+    real mirrored = in_bone ? h : real(2.0) * h - deep;
     DiskPotential image = disk_potential(r, mirrored);
     real twice = real(2.0) * h * (h - deep);
     moved.x += deep * image.by_r + twice * image.by_rz;
     moved.y += mirrored * image.by_z - image.value - twice * image.by_zz;
+    moved.x = in_bone ? real(0.0) : moved.x;
+    moved.y = in_bone ? real(0.0) : moved.y;
   }
   return moved;
 }

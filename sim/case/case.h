@@ -80,15 +80,17 @@ enum class SightLaw {
   echo,        // the tip by its echo alone, a target by contrast and size
   scatter,     // with scatter on the panel (docs/decisions/0082) and artefacts of ultrasound (0081)
   clutter,     // with clutter in ultrasound (docs/decisions/0090)
-  material     // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098), portal walls (0100),
+  material,    // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098), portal walls (0100),
                // and lesions' texture (0102)
+  tilt  // with a tip that fades with its tilt as the shaft does, and lines that overlap (docs/decisions/0106)
 };
 inline constexpr auto kSightLawNames = base::names<SightLaw>({{SightLaw::half_slice, "half_slice"},
                                                               {SightLaw::echo, "echo"},
                                                               {SightLaw::scatter, "scatter"},
                                                               {SightLaw::clutter, "clutter"},
-                                                              {SightLaw::material, "material"}});
-inline constexpr SightLaw kNewestSightLaw = SightLaw::material;
+                                                              {SightLaw::material, "material"},
+                                                              {SightLaw::tilt, "tilt"}});
+inline constexpr SightLaw kNewestSightLaw = SightLaw::tilt;
 
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.

@@ -154,16 +154,22 @@ MovedSlab::Range MovedSlab::range(const glm::dvec3& low, const glm::dvec3& high,
   return {glm::dvec3(least), glm::dvec3(most)};
 }
 
-MovedSlab::Columns MovedSlab::columns(double x_mm, double y_mm) const noexcept {
-  const Cell cell = cell_of({x_mm, y_mm, part_.low_mm.z});
-  Columns columns;
-  for (int right = 0; right < 2; ++right) {
-    columns.low[right] = nodes_.data() + index(cell.at.x + right, cell.at.y);
-    columns.high[right] = nodes_.data() + index(cell.at.x + right, cell.at.y + 1);
-  }
-  columns.right = static_cast<float>(cell.part.x);
-  columns.down = static_cast<float>(cell.part.y);
-  return columns;
+bool MovedSlab::is_still(const glm::dvec3& low, const glm::dvec3& high) const noexcept {
+  const Cell first = cell_of(low), last = cell_of(high);
+  for (int j = first.at.y; j <= last.at.y + 1; ++j)
+    for (int i = first.at.x; i <= last.at.x + 1; ++i) {
+      const glm::vec4* const nodes = column(i, j);
+      for (int l = first.at.z; l <= last.at.z + 1; ++l)
+        if (nodes[l] != glm::vec4(0.0F)) return false;
+    }
+  return true;
+}
+
+MovedSlab::Between MovedSlab::between(double x_mm, double y_mm) const noexcept {
+  const double x = within((x_mm - part_.low_mm.x) * per_step_.x, size_.x - 1.0),
+               y = within((y_mm - part_.low_mm.y) * per_step_.y, size_.y - 1.0);
+  const int i = std::min(static_cast<int>(x), size_.x - 2), j = std::min(static_cast<int>(y), size_.y - 2);
+  return {i, j, static_cast<float>(x - i), static_cast<float>(y - j)};
 }
 
 }  // namespace seldinger::tissue

@@ -47,17 +47,16 @@ class MovedSlab {
   };
   Range range(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3 (&axes)[3]) const noexcept;
 
-  // The four columns around a place and its parts of the way between them; a node's layers lie one after the other.
-  // u there, of a layer, is `down` of the way from beside(0) to beside(1).
-  struct Columns {
-    const glm::vec4 *low[2], *high[2];  // the first layers
+  // Whether nothing moves in a box of slab_of's coordinates.
+  bool is_still(const glm::dvec3& low, const glm::dvec3& high) const noexcept;
+
+  // The column before a place each way, and the parts of the way from there to the next ones.
+  struct Between {
+    int i, j;
     float right, down;
-    glm::vec3 beside(int side, int layer) const noexcept {
-      const glm::vec4* const* nodes = side == 0 ? low : high;
-      return glm::vec3(nodes[0][layer] + right * (nodes[1][layer] - nodes[0][layer]));
-    }
   };
-  Columns columns(double x_mm, double y_mm) const noexcept;
+  Between between(double x_mm, double y_mm) const noexcept;
+  const glm::vec4* column(int i, int j) const noexcept { return nodes_.data() + index(i, j); }
 
   // u, xyz, at the nodes: size().z layers of a column, columns along x, rows of them along y.
   std::span<const glm::vec4> nodes() const noexcept { return nodes_; }

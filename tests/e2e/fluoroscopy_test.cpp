@@ -92,7 +92,7 @@ TEST(XrayDemo, ExplainsThatItScatters) {
                            demo().answer.at("case_id").get<std::string>(),
                        demo().scratch);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_EQ(Json::parse(ran.out).at("sight_law"), "material");
+  EXPECT_EQ(Json::parse(ran.out).at("sight_law"), "tilt");
 }
 
 TEST(XrayDemo, StandsBesideTheOneUnderAProbe) {

@@ -197,7 +197,7 @@ TEST(RenderUltrasound, OfAPatientWhoMoves) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "q.png"));
 }
 
-// What the newest law draws of lesions and portal veins (docs/decisions/0100, 0102), and no other difference.
+// What the law material draws of lesions and portal veins (docs/decisions/0100, 0102), and no other difference.
 TEST(RenderUltrasound, AnEarlierLawDrawsNeitherTextureNorPortalWalls) {
   const auto scratch = fixtures::fresh_folder("render_ultrasound_laws");
   Json plain = ball();

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <ctime>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/measure/bench/bench.h"
-#include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/colour_screen.h"
 #include "sim/imaging/ultrasound/compound.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/fan.h"
@@ -90,7 +91,7 @@ class Pictures {
                               : tissue::Displacement{};
     imaging::PolarPicture& received = mixed ? looks_[number].picture : picture_;
     imaging::ultrasound_polar(patient_.tissue(), look, inserted_, {}, received, moved);
-    imaging::add_clutter(look, {}, received);
+    clutter_.add(look, {}, received);
     imaging::add_receiver_noise(view_.seed, frame_, received);
     if (mixed && looks_.back().picture.envelope.size() == received.envelope.size())
       compounder_.mean(view_, looks_, picture_);
@@ -99,7 +100,7 @@ class Pictures {
       cases::ConsoleSetting asked;
       asked.colour_mm_s = 200.0;
       imaging::colour_polar(patient_.tissue(), view_, inserted_, {}, flow_, asked, t_s, colour_, moved);
-      imaging::colour_numbers(converter_, {}, colour_, numbers_);
+      imaging::colour_numbers(colour_screen_, converter_, {}, colour_, numbers_);
     }
     ++frame_;
   }
@@ -108,7 +109,9 @@ class Pictures {
   On on_;
   UltrasoundView view_;
   imaging::ScanConverter converter_;
+  std::optional<imaging::ColourScreen> colour_screen_;
   imaging::Compounder compounder_;
+  imaging::Clutter clutter_;
   imaging::Inserted inserted_;
   tissue::BloodFlow flow_;
   std::array<imaging::Look, imaging::kLooks> looks_;

@@ -1,5 +1,6 @@
 #include "app/window/hands/coach.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -7,6 +8,7 @@
 
 #include "app/window/hands/hand_ways.h"
 #include "sim/devices/hands/turning.h"
+#include "sim/imaging/probe.h"
 
 namespace seldinger::app {
 namespace {
@@ -19,6 +21,10 @@ constexpr double kMiddleMm = 5.0;     // about its middle a probe is turned with
 constexpr double kFarMm = 30.0;       // from the entry, further than a target is looked for
 constexpr double kAboveCosine = 0.8;  // of a view to straight down on a block, which lies as a supine patient does
 constexpr double kUnseenMm = 8.0;     // so deep a tip is to be seen
+constexpr double kFoundMm = 0.5;      // a tip so far off the plane is found: a linear probe's slice is 1.5 mm thick
+// A tip that beams meet further off square than this may be lost (docs/decisions/0106); how squarely they are to
+// meet it, and by how much a probe is rocked at once.
+constexpr double kSteepDeg = 35.0, kSquareDeg = 30.0, kMostRockedDeg = 10.0;
 constexpr double kThereShare = 0.5, kPassedShare = 0.8;  // of the target's radius
 
 template <typename... Values>
@@ -43,11 +49,14 @@ class Hints {
         tip_lps_mm_(seen.moment.state.needle.tip_lps_mm),
         needle_{tip_lps_mm_, seen.moment.state.needle.direction, seen.needle_side},
         normal_(glm::cross(probe_.axial, probe_.lateral)),
+        face_(imaging::probe_named(scene.picture.probe)),
+        skin_(scene.skin_index),
         view_(view) {}
 
   std::string search() const;   // where to look, as long as that is not about the entry; else empty
   std::string align() const;    // the target is in the picture, and the needle outside
   std::string advance() const;  // the needle is in tissue
+  std::string find() const;     // its tip does not show
 
   // What its hand does, or that it is to be taken first.
   std::string by(HeldTool tool, const std::string& words) const {
@@ -62,6 +71,19 @@ class Hints {
   double along_mm(const glm::dvec3& place_lps_mm) const {
     return glm::dot(place_lps_mm - probe_.origin_lps_mm, probe_.lateral);
   }
+  struct Beam {
+    glm::dvec3 from_lps_mm, way;
+  };
+  // The beam that reaches the tip: where the face sends it from, and which way. A curved face's fan out from
+  // behind.
+  Beam beam() const {
+    const double radius_mm = face_ != nullptr ? face_->radius_mm : 0.0;
+    if (!(radius_mm > 0.0)) return {probe_.origin_lps_mm + along_mm(tip_lps_mm_) * probe_.lateral, probe_.axial};
+    const glm::dvec3 behind_lps_mm = probe_.origin_lps_mm - radius_mm * probe_.axial;
+    const glm::dvec3 way_mm = tip_lps_mm_ - behind_lps_mm;
+    const glm::dvec3 way = glm::normalize(way_mm - glm::dot(way_mm, normal_) * normal_);
+    return {behind_lps_mm + radius_mm * way, way};
+  }
   std::string slide_probe(const glm::dvec3& way_lps_mm) const {
     return by(HeldTool::probe, "slide it " + slide_words(way_lps_mm, HeldTool::probe, probe_.axial, view_)) + ".";
   }
@@ -73,6 +95,8 @@ class Hints {
   glm::dvec3 tip_lps_mm_;
   cases::ToolPose needle_;
   glm::dvec3 normal_;
+  const imaging::Probe* face_;  // as the case has it
+  const cases::MeshIndex& skin_;
   const devices::HandView& view_;
 };
 
@@ -123,15 +147,7 @@ std::string Hints::advance() const {
   if (beside_mm > kPassedShare * target_.radius_mm)
     return told("The needle’s path misses the target’s middle by %.1f mm: ", beside_mm) +
            by(HeldTool::needle, "pull back to the skin and aim again") + ".";
-  if (!seen_.frame->needle_tip && seen_.inserted_mm > kUnseenMm) {
-    const double off_mm = off_plane_mm(tip_lps_mm_);
-    if (std::abs(off_mm) <= 0.5 * kInPlaneMm)
-      return "The tip is in the picture’s plane, but does not show: " +
-             by(HeldTool::needle, "advance a little (wheel, or Page Down)") + ".";
-    return told("Stop: the picture does not show the tip, which is %.1f mm off its plane. Bring the probe to it: ",
-                std::abs(off_mm)) +
-           slide_probe(off_mm * normal_);
-  }
+  if (!seen_.frame->needle_tip && seen_.inserted_mm > kUnseenMm) return find();
   if (!seen_.frame->target) return "Advance only while tip and target are both in the picture.";
   if (left_mm > kThereShare * target_.radius_mm)
     return told("Advance: %.1f mm to the target’s middle: ", left_mm) +
@@ -139,6 +155,28 @@ std::string Hints::advance() const {
   if (left_mm < -kThereShare * target_.radius_mm)
     return told("Pull back: %.1f mm too deep: ", -left_mm) + by(HeldTool::needle, "wheel, or Page Up") + ".";
   return "The tip is in the target: say so (Space).";
+}
+
+std::string Hints::find() const {
+  const double off_mm = off_plane_mm(tip_lps_mm_);
+  if (std::abs(off_mm) > kFoundMm)
+    return told("Stop: the picture does not show the tip, which is %.1f mm off its plane. Bring the probe to it: ",
+                std::abs(off_mm)) +
+           slide_probe(off_mm * normal_);
+  const Beam at_tip = beam();
+  const double along = glm::dot(at_tip.way, needle_.axis),
+               steep_deg = degrees(std::asin(std::min(1.0, std::abs(along))));
+  if (steep_deg > kSteepDeg) {
+    const double by_rad = std::min(kMostRockedDeg, steep_deg - kSquareDeg) / degrees(1.0);
+    const double turns = along * glm::dot(glm::cross(normal_, at_tip.way), needle_.axis);  // > 0: steeper
+    return told("Beams meet the needle %.0f° off square, and its tip sends too little back: ", steep_deg) +
+           by(HeldTool::probe, "rock it " + rock_words(turns > 0.0 ? -by_rad : by_rad)) + ".";
+  }
+  if (!skin_.empty() && skin_.closest(at_tip.from_lps_mm).distance_mm > 0.0)
+    return "The probe’s face has lifted off the skin above the tip: press it on: " +
+           by(HeldTool::probe, "wheel over the room, or Page Down") + ".";
+  return "The tip is in the picture’s plane, but does not show: " +
+         by(HeldTool::needle, "advance a little (wheel, or Page Down)") + ".";
 }
 
 std::string align_words() {

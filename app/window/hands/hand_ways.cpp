@@ -15,6 +15,7 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 // A way of the hand that does less than this of what is wanted leads nowhere; from above one does more.
 constexpr double kLeastShare = 0.4;
+constexpr double kFineMm = 2.0;  // less than this takes Shift, by which hands go ten times finer
 constexpr const char* kFromAbove = "once you look from above (4)";
 
 struct Way {
@@ -57,7 +58,8 @@ std::string slide_words(const glm::dvec3& way_lps_mm, devices::HeldTool tool, co
     const Led one = led(way_lps_mm, way.along);
     if (one.share <= std::max(kLeastShare, best.share)) return;
     best = one;
-    words = filled("%s by %.1f mm (%s, or %s)", way.to, one.amount, hand, way.by);
+    words = filled("%s by %.1f mm (%s%s, or %s)", way.to, one.amount, hand,
+                   one.amount < kFineMm ? " with Shift" : "", way.by);
   };
   for (Way way : on_screen(view)) {
     if (tool == devices::HeldTool::probe) way.along -= axis * glm::dot(way.along, axis);
@@ -93,6 +95,11 @@ std::string aim_words(const glm::dvec3& direction, const cases::ToolPose& needle
 std::string rotate_words(double by_rad) {
   return filled("by %.0f° (middle drag to the %s, or %s)", kDegrees * std::abs(by_rad),
                 by_rad > 0.0 ? "right" : "left", by_rad > 0.0 ? "O" : "U");
+}
+
+std::string rock_words(double by_rad) {
+  return filled("by %.0f° (right drag to the %s, or %s)", kDegrees * std::abs(by_rad),
+                by_rad > 0.0 ? "right" : "left", by_rad > 0.0 ? "L" : "J");
 }
 
 }  // namespace seldinger::app

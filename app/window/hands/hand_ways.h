@@ -17,5 +17,7 @@ std::string slide_words(const glm::dvec3& way_lps_mm, devices::HeldTool tool, co
 std::string aim_words(const glm::dvec3& direction, const cases::ToolPose& needle, const devices::HandView& view);
 // About the probe's axis: "by 53° (middle drag to the right, or O)".
 std::string rotate_words(double by_rad);
+// In its plane, about that plane's normal, axial × lateral: "by 12° (right drag to the right, or L)".
+std::string rock_words(double by_rad);
 
 }  // namespace seldinger::app

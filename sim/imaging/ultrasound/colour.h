@@ -42,6 +42,7 @@ struct ColourBox {
   double grey_beam(double beam, double depth_mm) const noexcept {
     return beam + beams_per_mm * (depth_mm - 0.5 * (from_mm + to_mm));
   }
+  bool operator==(const ColourBox&) const = default;
 };
 ColourBox colour_box(const UltrasoundView& view, const cases::ConsoleSetting& asked) noexcept;
 
@@ -61,16 +62,5 @@ void colour_polar(const TissueVolume& tissue, const UltrasoundView& view, const 
                   std::span<const float> depth_below_skin_mm, const tissue::BloodFlow& flow,
                   const cases::ConsoleSetting& asked, double t_s, ColourPicture& picture,
                   const tissue::Displacement& displacement = {});
-
-// Numbers of colours, in the place of grey: 0 where grey shows, then the box's edge, then speeds from away to
-// towards; with a bar of them in the upper right corner.
-constexpr unsigned char kNoColour = 0, kColourEdge = 1, kColourStill = 128;
-constexpr int kColourSteps = 126;  // to either side of still
-void colour_numbers(const ScanConverter& converter, const UltrasoundKnobs& knobs, const ColourPicture& colour,
-                    std::vector<unsigned char>& numbers);
-// Red, green, blue of each number: towards the probe red to yellow, away blue to cyan.
-const std::array<std::array<unsigned char, 3>, 256>& colour_table() noexcept;
-// Three bytes a pixel; `numbers` as large as `grey`.
-std::vector<unsigned char> in_colour(std::span<const unsigned char> grey, std::span<const unsigned char> numbers);
 
 }  // namespace seldinger::imaging

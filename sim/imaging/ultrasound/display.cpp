@@ -7,7 +7,6 @@
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
 #include "sim/base/clones.h"
-#include "sim/base/rows.h"
 #include "sim/imaging/float_math.h"
 #include "sim/imaging/noise.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
@@ -20,7 +19,8 @@ namespace {
 
 // Of mean squares, sample by sample from one on: in one of 256 directions, of a Rayleigh length of 24 bits.
 SELDINGER_FOR_AVX2_TOO
-void add_noise(NoiseKey key, std::size_t first, std::span<const float> mean_square, float* envelope) noexcept {
+void find_noise(NoiseKey key, std::size_t first, std::span<const float> mean_square, float* re,
+                float* im) noexcept {
   const std::array<float, 2>* const directions = phases().data();
   const float* const squares = mean_square.data();
   const auto count = static_cast<std::uint32_t>(mean_square.size()), number = static_cast<std::uint32_t>(first);
@@ -29,8 +29,15 @@ void add_noise(NoiseKey key, std::size_t first, std::span<const float> mean_squa
     const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 8)) + 0.5F) * 0x1.0p-24F;
     const float length = std::sqrt(-squares[i] * float_log(u));
     const std::array<float, 2>& direction = directions[4 * (bits & 255U)];
-    const float re = envelope[i] + length * direction[0], im = length * direction[1];
-    envelope[i] = std::sqrt(re * re + im * im);
+    re[i] = length * direction[0];
+    im[i] = length * direction[1];
+  }
+}
+SELDINGER_FOR_AVX2_TOO
+void add_noise(const float* re, const float* im, std::size_t count, float* envelope) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float sum = envelope[i] + re[i];
+    envelope[i] = std::sqrt(sum * sum + im[i] * im[i]);
   }
 }
 
@@ -51,8 +58,11 @@ void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& p
   const NoiseKey key = noise_key(seed, frame);
   const std::vector<float> mean_square(static_cast<std::size_t>(picture.samples),
                                        static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0)));
-  for (std::size_t first = 0; first < picture.envelope.size(); first += mean_square.size())
-    add_noise(key, first, mean_square, picture.envelope.data() + first);
+  std::vector<float> re(mean_square.size()), im(mean_square.size());
+  for (std::size_t first = 0; first < picture.envelope.size(); first += mean_square.size()) {
+    find_noise(key, first, mean_square, re.data(), im.data());
+    add_noise(re.data(), im.data(), re.size(), picture.envelope.data() + first);
+  }
 }
 
 double clutter_db(const UltrasoundView& view, double depth_mm) noexcept {
@@ -61,19 +71,29 @@ double clutter_db(const UltrasoundView& view, double depth_mm) noexcept {
              depth_mm;
 }
 
-void add_clutter(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
+void Clutter::add(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
   if (!shows_clutter(view)) return;
-  const auto samples = static_cast<std::size_t>(view.samples);
-  std::vector<float> mean_square;
-  for (int k = 0; k < view.samples; ++k)
-    mean_square.push_back(
-        static_cast<float>(std::pow(10.0, 0.1 * clutter_db(view, (k + 0.5) * view.depth_mm / view.samples))));
-  const NoiseKey key = noise_key(view.seed, 0);  // the receiver's begin with 1
-  base::over_rows(view.beams, view.threads, [&](int b) {
-    if (!beam_touches(view, depth_below_skin_mm, b)) return;
-    const std::size_t first = static_cast<std::size_t>(b) * samples;
-    add_noise(key, first, mean_square, picture.envelope.data() + first);
-  });
+  const auto samples = static_cast<std::size_t>(view.samples), beams = static_cast<std::size_t>(view.beams);
+  const Of of{view.seed, view.beams, view.samples, view.depth_mm, working_mhz(view)};
+  if (of != of_) {
+    of_ = of;
+    re_.resize(beams * samples);
+    im_.resize(beams * samples);
+    std::vector<float> mean_square;
+    for (int k = 0; k < view.samples; ++k)
+      mean_square.push_back(
+          static_cast<float>(std::pow(10.0, 0.1 * clutter_db(view, (k + 0.5) * view.depth_mm / view.samples))));
+    const NoiseKey key = noise_key(view.seed, 0);  // the receiver's begin with 1
+    for (std::size_t first = 0; first < re_.size(); first += samples)
+      find_noise(key, first, mean_square, re_.data() + first, im_.data() + first);
+  }
+  for (std::size_t b = 0; b < beams; ++b)
+    if (beam_touches(view, depth_below_skin_mm, static_cast<int>(b)))
+      add_noise(re_.data() + b * samples, im_.data() + b * samples, samples, picture.envelope.data() + b * samples);
+}
+
+void add_clutter(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
+  Clutter().add(view, depth_below_skin_mm, picture);
 }
 
 Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept {

@@ -30,7 +30,6 @@ constexpr bool is_round(TissueClass tissue) {
 struct LineWalker::NeedleCrossing {
   double depth_mm = -1.0;  // of the shaft's near side; < 0: none
   double weight = 0.0;     // how much of the beam meets it
-  double tilt_rad = 0.0;   // of the beam off the needle's normal
   double covered = 0.0;    // share of the beam it stands before
   double tip_depth_mm = -1.0, tip_weight = 0.0;
 };
@@ -107,8 +106,16 @@ LineWalker::Plane LineWalker::plane_at(const glm::dvec3& p_lps_mm, double before
   return plane;
 }
 
-void LineWalker::walk(int beam, bool contact, Line& line, Echoes echoes) const {
-  const auto count = static_cast<std::size_t>(view_.samples);
+void LineWalker::walk(int beam, bool contact, Line& line) const {
+  walk(beam, contact, depths_mm_.size(), line, Echoes::found);
+}
+
+void LineWalker::walk_down(int beam, bool contact, std::size_t samples, Line& line) const {
+  const auto gel = static_cast<std::size_t>(kUsGelMm / fan_.sample_mm) + 2;
+  walk(beam, contact, std::min(std::max(samples, gel), depths_mm_.size()), line, Echoes::left_out);
+}
+
+void LineWalker::walk(int beam, bool contact, std::size_t count, Line& line, Echoes echoes) const {
   line.tissue.resize(count);
   line.loss_db.assign(count, static_cast<float>(kUsDeadDb));
   line.shift_mm.clear();
@@ -122,7 +129,7 @@ void LineWalker::walk(int beam, bool contact, Line& line, Echoes echoes) const {
   }
   const BeamPath path = path_of(fan_, motion_, beam);
   const double dz = fan_.sample_mm;
-  tissue_along(path, tissue_at_, depths_mm_, line.tissue);
+  tissue_along(path, tissue_at_, std::span(depths_mm_).first(count), line.tissue);
   // Gel, unless there is gas beyond what a blurred skin can be; also past a corner of air that a slanted beam
   // clips.
   std::size_t first = 0;
@@ -167,6 +174,7 @@ void LineWalker::walk(int beam, bool contact, Line& line, Echoes echoes) const {
     sum_db = std::min(kUsDeadDb, sum_db + step_db);
   }
   for (std::size_t k = 0; k < first; ++k) line.loss_db[k] = 0.0F;
+  if (echoes == Echoes::left_out) return;
   for (const NeedleLine::Echo& echo : needle.echoes) {
     const auto k = static_cast<std::size_t>(std::clamp(echo.loss_at_mm / dz - 0.5, 0.0, view_.samples - 1.0));
     line.echoes.push_back({echo.depth_mm, echo.amplitude * us_amplitude(-static_cast<double>(line.loss_db[k]))});
@@ -279,7 +287,10 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
   const double x1 = -glm::dot(along, across), y1 = -glm::dot(along, fan_.elevation),
                z1 = -glm::dot(along, direction);
   const auto width_at = [&](double depth_mm) {
-    return beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::clamp(depth_mm, 0.5, view_.depth_mm));
+    const double at_mm = std::clamp(depth_mm, 0.5, view_.depth_mm);
+    BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, at_mm);
+    width.lateral_sigma_mm = needle_sigma_mm(view_, width.lateral_sigma_mm, fan_.beam_spacing_mm(at_mm));
+    return width;
   };
   // The point of the shaft that the beam sees most of; its widths change slowly with depth, twice is enough.
   double t = 0.0;
@@ -298,7 +309,6 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
   };
   const double z = tip_z + t * z1;
   const double sine = std::min(1.0, std::abs(z1));
-  at.tilt_rad = std::asin(sine);
   const double near_mm = z - needle_->radius_mm / std::max(0.25, std::sqrt(1.0 - sine * sine));
   const double weight = weight_at(tip_x + t * x1, tip_y + t * y1, z);
   if (near_mm >= 0.0 && near_mm < view_.depth_mm && weight > kLeastNeedleWeight) {
@@ -321,12 +331,13 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
 NeedleLine LineWalker::needle_line(int beam) const {
   NeedleLine line;
   if (needle_ == nullptr) return line;
-  const NeedleCrossing at = crossing(fan_.start_lps_mm(beam), fan_.direction(beam));
+  const glm::dvec3 direction = fan_.direction(beam);
+  const NeedleCrossing at = crossing(fan_.start_lps_mm(beam), direction);
   line.depth_mm = at.depth_mm;
   if (at.covered > 0.0)
     line.shadow_db = -20.0 * std::log10(1.0 - at.covered * (1.0 - us_amplitude(-kNeedleShadowDb)));
   if (at.depth_mm >= 0.0) {
-    const NeedleEcho echo = needle_echo(view_, *needle_, at.depth_mm, at.tilt_rad);
+    const NeedleEcho echo = needle_echo(view_, *needle_, at.depth_mm, direction);
     line.echoes.push_back({at.depth_mm, echo.shaft() * at.weight, at.depth_mm});
     // Lines from inside: the lumen of a hollow one, as deep as saline shows it; the steel of a solid one.
     const double spacing_mm = needle_->inner_radius_mm > 0.0 ? 2.0 * needle_->inner_radius_mm * 1540.0 / 1480.0
@@ -344,7 +355,7 @@ NeedleLine LineWalker::needle_line(int beam) const {
     // The end of the shaft does not lie in the shaft's shadow.
     const bool own_shadow = view_.sight_law == cases::SightLaw::half_slice || at.depth_mm < 0.0;
     line.echoes.push_back({at.tip_depth_mm,
-                           needle_echo(view_, *needle_, at.tip_depth_mm, at.tilt_rad).tip * at.tip_weight,
+                           needle_echo(view_, *needle_, at.tip_depth_mm, direction).tip * at.tip_weight,
                            own_shadow ? at.tip_depth_mm : std::min(at.depth_mm, at.tip_depth_mm)});
   }
   return line;

@@ -58,8 +58,9 @@ class LineWalker {
   // What it is given outlives it. `motion`: of tissue that moves; else null.
   LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const volume::Volume& volume,
              const Inserted& inserted, const PictureMotion* motion = nullptr);
-  enum class Echoes { found, left_out };  // whoever asks for tissue and loss alone need not wait for them
-  void walk(int beam, bool contact, Line& line, Echoes echoes = Echoes::found) const;
+  void walk(int beam, bool contact, Line& line) const;
+  // Tissue and loss alone, of so many samples from the face down, or a few more: the same bits as of all.
+  void walk_down(int beam, bool contact, std::size_t samples, Line& line) const;
 
   // What a walk elsewhere (ultrasound_gpu) needs.
   struct Neighbour {
@@ -80,6 +81,8 @@ class LineWalker {
   NeedleLine needle_line(int beam) const;
 
  private:
+  enum class Echoes { found, left_out };
+  void walk(int beam, bool contact, std::size_t count, Line& line, Echoes echoes) const;
   struct Plane {
     bool is_told = false;
     glm::dvec3 normal{0.0};  // towards what comes after

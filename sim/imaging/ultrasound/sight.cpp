@@ -36,6 +36,11 @@ double gel_mm_of(std::span<const TissueClass> tissue) {
   return gel_mm > shaders::kUsGelMm ? 0.0 : gel_mm;
 }
 
+double needle_above() noexcept {
+  static const double above = power_of(kNeedleAboveDb);  // asked for at every place of a needle
+  return above;
+}
+
 double seen_cells(double cells) {
   return std::clamp(cells, 1.0, kMostCellsSeen);
 }
@@ -122,9 +127,26 @@ double Sight::scatter(const Fan::Way& way, double beam, double depth_mm) const {
   return amplitude * amplitude;
 }
 
+void Sight::get_ready(std::span<const Place> to_glance) const {
+  if (!at_rest_) return;
+  boxes_.clear();
+  for (const Place& at : to_glance) {
+    const double aside = beams_of(kAroundMm, at.depth_mm);
+    boxes_.push_back({at.beam - aside, at.beam + aside, at.depth_mm - kAroundMm, at.depth_mm + kAroundMm});
+  }
+  at_rest_->ask(boxes_);
+}
+
+void Sight::get_ready_to_walk(std::span<const Place> down_to) const {
+  if (!at_rest_) return;
+  boxes_.clear();
+  for (const Place& at : down_to)
+    if (touches(at)) boxes_.push_back({at.beam, at.beam, 0.0, std::max(at.depth_mm, shaders::kUsGelMm)});
+  at_rest_->ask(boxes_);
+}
+
 double Sight::scatter_around(const Fan::Way& way, const Place& at) const {
   const double aside = beams_of(kAroundMm, at.depth_mm);
-  if (at_rest_) at_rest_->ask(at.beam - aside, at.beam + aside, at.depth_mm - kAroundMm, at.depth_mm + kAroundMm);
   const auto beside = [&](double beam) { return scatter(fan_.way(beam), beam, at.depth_mm); };
   return 0.2 * (scatter(way, at.beam, at.depth_mm) + beside(at.beam - aside) + beside(at.beam + aside) +
                 scatter(way, at.beam, at.depth_mm - kAroundMm) + scatter(way, at.beam, at.depth_mm + kAroundMm));
@@ -132,14 +154,13 @@ double Sight::scatter_around(const Fan::Way& way, const Place& at) const {
 
 // Amplitude of the needle's echo without loss.
 double Sight::needle_amplitude(const NeedlePose& needle, const Fan::Way& way, const Place& at, bool tip) const {
-  const glm::dvec3 along = glm::normalize(needle.direction);
-  const double sine = std::min(1.0, std::abs(glm::dot(along, way.direction)));
-  const NeedleEcho echo = needle_echo(view_, needle, at.depth_mm, std::asin(sine));
+  const NeedleEcho echo = needle_echo(view_, needle, at.depth_mm, way.direction);
   const double y = at.off_plane_mm / slice_sigma_mm(at.depth_mm);
   if (!tip) return drawn(echo.shaft(), std::exp(-0.5 * y * y));
   const BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::max(0.5, at.depth_mm));
   const double off_beam = at.beam - std::clamp(std::round(at.beam), 0.0, view_.beams - 1.0);
-  const double x = off_beam * fan_.beam_spacing_mm(at.depth_mm) / width.lateral_sigma_mm;
+  const double spacing_mm = fan_.beam_spacing_mm(at.depth_mm);
+  const double x = off_beam * spacing_mm / needle_sigma_mm(view_, width.lateral_sigma_mm, spacing_mm);
   const double off_plane = std::exp(-0.5 * y * y);
   return std::max(drawn(echo.tip, std::exp(-0.5 * x * x), off_plane), drawn(echo.shaft(), off_plane));
 }
@@ -152,13 +173,13 @@ double Sight::drawn(double amplitude, double across, double off_plane) const noe
 
 // Mean square of what lies over all echoes: the receiver's noise, and clutter where the picture has it.
 double Sight::over_all(double depth_mm) const noexcept {
-  const double noise = power_of(kReceiverNoiseDb);
+  static const double noise = power_of(kReceiverNoiseDb);
   return shows_clutter(view_) ? noise + power_of(clutter_db(view_, depth_mm)) : noise;
 }
 
 double Sight::Glance::spare(double through) const noexcept {
   const double speckle = through * scatter;
-  return through * echo - power_of(kNeedleAboveDb) * (adds_up ? speckle + over_all : std::max(speckle, over_all));
+  return through * echo - needle_above() * (adds_up ? speckle + over_all : std::max(speckle, over_all));
 }
 
 // spare() is straight in what comes through, or bends down once, where speckle begins to be the larger.
@@ -173,7 +194,7 @@ Sight::Glance::Range Sight::Glance::range() const noexcept {
 }
 
 double Sight::Glance::size() const noexcept {
-  return echo + power_of(kNeedleAboveDb) * (scatter + over_all);
+  return echo + needle_above() * (scatter + over_all);
 }
 
 Sight::Glance Sight::glance(const NeedlePose& needle, const Place& at, bool tip) const {

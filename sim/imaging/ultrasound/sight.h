@@ -58,6 +58,10 @@ class Sight {
     double size() const noexcept;
   };
   Glance glance(const NeedlePose& needle, const Place& at, bool tip) const;
+  // Places that glance() or walk_to() will be asked about: where tissue moves, its way back is found sooner for all
+  // of them at once.
+  void get_ready(std::span<const Place> to_glance) const;
+  void get_ready_to_walk(std::span<const Place> down_to) const;
   void walk_to(Glance& glance) const {
     if (!glance.loss_db) glance.loss_db = loss_db(glance.way, glance.at.beam, glance.at.depth_mm);
   }
@@ -96,6 +100,7 @@ class Sight {
   std::optional<RestFan> at_rest_;         // where tissue moves
   mutable std::vector<double> depths_mm_;  // of a walk, and what lies there
   mutable std::vector<volume::TissueClass> tissue_;
+  mutable std::vector<RestFan::Box> boxes_;
 };
 
 }  // namespace seldinger::imaging

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/imaging/ultrasound/compound.h"
@@ -42,32 +44,49 @@ class Looks {
     return tissue::count_sources(displacement_) > 0 ? tissue::displaced(displacement_, rest_lps_mm) : rest_lps_mm;
   }
 
-  // At a place in the field of the middle one.
-  bool needle_stands_out(const NeedlePose& needle, const glm::dvec3& p_lps_mm, const Place& in_middle,
-                         bool tip) const {
-    Glances glances = look_at(needle, p_lps_mm, in_middle, tip);
-    if (const std::optional<bool> settled = settled_by_few(glances)) return *settled;
-    const auto hides = [](const Glances::value_type& one) { return !one || one->is_in_speckle(); };
-    return !std::all_of(glances.begin(), glances.end(), hides) && mean_of(glances).stands_out();
+  // At how many of these places of the needle it does.
+  int stands_out(const NeedlePose& needle, std::span<const glm::dvec3> places_lps_mm, bool tip) const {
+    std::vector<Glances> all = look_at(needle, places_lps_mm, tip);
+    std::vector<std::size_t> open(all.size());  // not settled yet
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    int count = 0;
+    while (!open.empty()) {
+      std::vector<std::pair<std::size_t, std::size_t>> to_walk;  // of which, that look
+      for (const std::size_t n : open) {
+        const Settling now = settle(all[n]);
+        if (now.next)
+          to_walk.emplace_back(n, *now.next);
+        else
+          count += (now.stands_out ? *now.stands_out : stands_out_at_all(all[n])) ? 1 : 0;
+      }
+      for (std::size_t i = 0; i < looks_.size(); ++i) {
+        std::vector<Place> down_to;
+        for (const auto& [n, look] : to_walk)
+          if (look == i) down_to.push_back(all[n][i]->at);
+        looks_[i].get_ready_to_walk(down_to);
+      }
+      open.clear();
+      for (const auto& [n, look] : to_walk) {
+        looks_[look].walk_to(*all[n][look]);
+        open.push_back(n);
+      }
+    }
+    return count;
   }
 
   double visible_shaft_mm(const NeedlePose& needle) const {
     const int steps = std::clamp(static_cast<int>(std::ceil(needle.length_mm / kShaftStepMm)), 1, 1000);
     const double step_mm = needle.length_mm / steps;
     const glm::dvec3 along = glm::normalize(needle.direction);
-    int seen = 0;
-    for (int i = 0; i < steps; ++i) {
-      const glm::dvec3 p = needle.tip_lps_mm - ((i + 0.5) * step_mm) * along;
-      const Place in_middle = middle().place(p);
-      seen += middle().in_field(in_middle) && needle_stands_out(needle, p, in_middle, false) ? 1 : 0;
-    }
-    return seen * step_mm;
+    std::vector<glm::dvec3> places_lps_mm;
+    for (int i = 0; i < steps; ++i) places_lps_mm.push_back(needle.tip_lps_mm - ((i + 0.5) * step_mm) * along);
+    return stands_out(needle, places_lps_mm, false) * step_mm;
   }
 
   NeedleLevel level(const NeedlePose& needle, const glm::dvec3& p_lps_mm, bool tip) const {
     const Place in_middle = middle().place(p_lps_mm);
     if (middle().in_field(in_middle)) {
-      Glances glances = look_at(needle, p_lps_mm, in_middle, tip);
+      Glances glances = look_at(needle, places_of(p_lps_mm, in_middle), tip);
       return mean_of(glances);
     }
     NeedleLevel none;
@@ -97,17 +116,47 @@ class Looks {
 
  private:
   using Glances = std::array<std::optional<Sight::Glance>, kLooks>;  // of the looks that show a place
-  // In the field of the middle one; the others as the compounder lays them over it (Compounder::mean), which shows
-  // nothing else where the middle one stands in air.
-  Glances look_at(const NeedlePose& needle, const glm::dvec3& p_lps_mm, const Place& in_middle, bool tip) const {
-    Glances glances;
-    glances.front() = middle().glance(needle, in_middle, tip);
-    if (looks_.size() == 1 || !middle().touches(in_middle)) return glances;
+  using Places = std::array<std::optional<Place>, kLooks>;
+  // Of one in the field of the middle one; the others as the compounder lays them over it (Compounder::mean), which
+  // shows nothing else where the middle one stands in air.
+  Places places_of(const glm::dvec3& p_lps_mm, const Place& in_middle) const {
+    Places places{in_middle};
+    if (looks_.size() == 1 || !middle().touches(in_middle)) return places;
     for (std::size_t i = 1; i < looks_.size(); ++i) {
       const Place at = looks_[i].place(p_lps_mm);
-      if (looks_[i].in_field(at) && looks_[i].touches(at)) glances[i] = looks_[i].glance(needle, at, tip);
+      if (looks_[i].in_field(at) && looks_[i].touches(at)) places[i] = at;
     }
+    return places;
+  }
+  Glances look_at(const NeedlePose& needle, const Places& places, bool tip) const {
+    Glances glances;
+    for (std::size_t i = 0; i < looks_.size(); ++i)
+      if (places[i]) glances[i] = looks_[i].glance(needle, *places[i], tip);
     return glances;
+  }
+  // Of those of the places that lie in the field of the middle one.
+  std::vector<Glances> look_at(const NeedlePose& needle, std::span<const glm::dvec3> places_lps_mm,
+                               bool tip) const {
+    std::vector<Places> places;
+    for (const glm::dvec3& p_lps_mm : places_lps_mm) {
+      const Place in_middle = middle().place(p_lps_mm);
+      if (middle().in_field(in_middle)) places.push_back(places_of(p_lps_mm, in_middle));
+    }
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      std::vector<Place> to_glance;
+      for (const Places& at : places)
+        if (at[i]) to_glance.push_back(*at[i]);
+      looks_[i].get_ready(to_glance);
+    }
+    std::vector<Glances> all;
+    all.reserve(places.size());
+    for (const Places& at : places) all.push_back(look_at(needle, at, tip));
+    return all;
+  }
+  // Where all is known.
+  bool stands_out_at_all(Glances& glances) const {
+    const auto hides = [](const Glances::value_type& one) { return !one || one->is_in_speckle(); };
+    return !std::all_of(glances.begin(), glances.end(), hides) && mean_of(glances).stands_out();
   }
   NeedleLevel mean_of(Glances& glances) const {
     double echo = 0.0, background = 0.0, count = 0.0;
@@ -126,32 +175,29 @@ class Looks {
     mean.background_db = decibels_of(background / count);
     return mean;
   }
-  // Whether the mean of what they show stands out, beams being walked down one by one, that first of which most
-  // hangs, until what is not known of the others changes nothing. Nothing where it is a matter of rounding.
-  std::optional<bool> settled_by_few(Glances& glances) const {
-    std::array<double, kLooks> share{};
-    double rounding = 0.0;
+  // Whether the mean of what they show stands out, as far as what is not known of them leaves it open: then the
+  // beam of that look is walked down next on which it most hangs. Neither: all is known, and it is a matter of
+  // rounding.
+  struct Settling {
+    std::optional<bool> stands_out;
+    std::optional<std::size_t> next;
+  };
+  Settling settle(const Glances& glances) const {
+    double least = 0.0, most = 0.0, widest = 0.0, rounding = 0.0;
+    std::optional<std::size_t> next;
     for (std::size_t i = 0; i < glances.size(); ++i) {
       if (!glances[i]) continue;
-      share[i] = i == 0 ? 1.0 : power_of(-begun_db(glances[i]->at, glances.front()->at));
-      rounding += kRounding * share[i] * glances[i]->size();
+      const double share = i == 0 ? 1.0 : power_of(-begun_db(glances[i]->at, glances.front()->at));
+      const Sight::Glance::Range spare = glances[i]->range();
+      rounding += kRounding * share * glances[i]->size();
+      least += share * spare.least;
+      most += share * spare.most;
+      const double width = share * (spare.most - spare.least);
+      if (width > widest) widest = width, next = i;
     }
-    for (;;) {
-      double least = 0.0, most = 0.0, widest = 0.0;
-      std::size_t next = glances.size();
-      for (std::size_t i = 0; i < glances.size(); ++i) {
-        if (!glances[i]) continue;
-        const Sight::Glance::Range spare = glances[i]->range();
-        least += share[i] * spare.least;
-        most += share[i] * spare.most;
-        const double width = share[i] * (spare.most - spare.least);
-        if (width > widest) widest = width, next = i;
-      }
-      if (least > rounding) return true;
-      if (most < -rounding) return false;
-      if (next == glances.size()) return std::nullopt;
-      looks_[next].walk_to(*glances[next]);
-    }
+    if (least > rounding) return {true, {}};
+    if (most < -rounding) return {false, {}};
+    return {{}, next};
   }
   // What a look is lowered by where it is laid over the middle one, because it begins deeper.
   double begun_db(const Place& look, const Place& in_middle) const {
@@ -186,7 +232,7 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
       seen.near_plane.tip_2_mm = std::abs(tip.off_plane_mm) <= kNearMm;
       seen.near_plane.tip_5_mm = std::abs(tip.off_plane_mm) <= kLessNearMm;
       const bool in_reach = view.sight_law != cases::SightLaw::half_slice || sight.in_slice(tip, 0.0);
-      seen.visible.needle_tip = in_reach && looks.needle_stands_out(*needle, needle->tip_lps_mm, tip, true);
+      seen.visible.needle_tip = in_reach && looks.stands_out(*needle, {&needle->tip_lps_mm, 1}, true) > 0;
     }
     seen.visible.needle_length_mm = looks.visible_shaft_mm(*needle);
   }

@@ -76,10 +76,11 @@ TEST(Drills, AskForOneThingAndAHitThroughOneHole) {
     EXPECT_TRUE(asks(drill.number == 1   ? "advance_joint_visible_last_20_mm"
                      : drill.number == 2 ? "advance_visible_share"
                                          : "advance_beyond_plane"));
-    // The planned way, from the top to the ball, is one that a hand can hold beside a probe.
+    // The planned way, from the top to the ball, is one that a hand can hold beside a probe. Along the picture it
+    // may be flatter: the flatter, the more of the needle is seen (decision 0106).
     const glm::dvec3 way = drill.lesions.at(0).center_lps_mm - *drill.setting.planned_entry_lps_mm;
     const double steep_deg = std::asin(way.y / glm::length(way)) * 180.0 / std::acos(-1.0);
-    EXPECT_GT(steep_deg, 40.0);
+    EXPECT_GT(steep_deg, drill.setting.approach == cases::Approach::out_of_plane ? 40.0 : 30.0);
     EXPECT_LT(steep_deg, 60.0);
   }
 }

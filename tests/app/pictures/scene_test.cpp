@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "sim/volume/phantom.h"
 
 namespace seldinger::app {
@@ -29,6 +32,57 @@ TEST(Scene, NamesTheBuiltInTorso) {
   EXPECT_EQ(class_at({-100.0, 0.0, 10.0}), volume::TissueClass::liver);
   EXPECT_EQ(class_at({104.0, 34.0, 58.0}), volume::TissueClass::spleen);
   EXPECT_EQ(class_at({0.0, 39.0, 3.0}), volume::TissueClass::bone);
+}
+
+TEST(Scene, DrawsStructuresThatHaveATissue) {
+  std::vector<std::string> unused;
+  const auto with = [&](const std::string& more) {
+    return scene_from_json(R"({"volume": {"built_in": "torso"}, "structures": [{"name": "portal_vein",
+        "rule": "critical", "kind": "tube", "radius_mm": 6, "points_mm": [[-110, 0, 10], [-90, 0, 10]])" +
+                               more + "}]}",
+                           ".", unused);
+  };
+  const auto at = [](const volume::Volume& volume, const glm::dvec3& p_lps_mm) {
+    const glm::dvec3 v = glm::dvec3(volume::voxel_from_lps(volume) * glm::dvec4(p_lps_mm, 1.0)) + 0.5;
+    return volume.index(static_cast<int>(v.x), static_cast<int>(v.y), static_cast<int>(v.z));
+  };
+  const glm::dvec3 inside(-100.0, 0.0, 10.0), outside(-100.0, 0.0, 20.0);
+  // Without one a structure is told by its name alone, and the volume stays as it is.
+  const auto named = with("");
+  ASSERT_TRUE(named.has_value()) << named.error().text;
+  EXPECT_TRUE(named->drawn.empty());
+  const volume::Phantom torso = volume::make_phantom();
+  EXPECT_EQ(volume_of(*named, "")->hu, torso.volume.hu);
+  for (const auto& [more, hu] : {std::pair{std::string(R"(, "tissue": "vessel")"), 43},
+                                 std::pair{std::string(R"(, "tissue": "vessel", "hu": 170)"), 170}}) {
+    const auto drawn = with(more);
+    ASSERT_TRUE(drawn.has_value()) << drawn.error().text;
+    EXPECT_EQ(drawn->structures.at(0).tissue, volume::TissueClass::vessel);
+    const auto volume = volume_of(*drawn, "");
+    ASSERT_TRUE(volume.has_value());
+    EXPECT_EQ(volume->hu[at(*volume, inside)], hu);
+    EXPECT_EQ(volume->hu[at(*volume, outside)], torso.volume.hu[at(*volume, outside)]);
+    const auto tissue = tissue_of(*drawn, *volume, "");
+    ASSERT_TRUE(tissue.has_value());
+    EXPECT_EQ(tissue->classes[at(*volume, inside)], volume::TissueClass::vessel);
+    EXPECT_EQ(tissue->classes[at(*volume, outside)], volume::TissueClass::liver);
+  }
+  // A portal vein that is drawn has walls, one that is only named has none.
+  const auto levels = [&](const Scene& scene) { return tissue_of(scene, *volume_of(scene, ""), "")->echogenicity; };
+  const auto with_walls = levels(*with(R"(, "tissue": "vessel")"));
+  Scene hepatic = *with(R"(, "tissue": "vessel")");
+  hepatic.structures[0].name = "hepatic_vein";
+  EXPECT_NE(with_walls, levels(hepatic));
+  EXPECT_TRUE(unused.empty());
+  for (const char* wrong :
+       {R"(, "tissue": "blood!")", R"(, "tissue": 12)", R"(, "tissue": "vessel", "hu": "170")"}) {
+    const auto refused = with(wrong);
+    ASSERT_FALSE(refused.has_value()) << wrong;
+    EXPECT_EQ(refused.error().code, "bad_scene");
+  }
+  // An HU without a tissue draws nothing, and says so.
+  EXPECT_TRUE(with(R"(, "hu": 170)")->drawn.empty());
+  EXPECT_EQ(unused.size(), 1U);
 }
 
 TEST(Scene, RefusesWhatIsNotBuiltIn) {

@@ -72,7 +72,7 @@ TEST(RuleTest, WithoutAVersionTheOneThatTheCaseMeasuresIsMeant) {
   Guidance guidance{};
   guidance.manner.modality = cases::Modality::ultrasound;
   for (const auto& [law, version] :
-       {std::pair(cases::SightLaw::echo, newest - 3), std::pair(cases::kNewestSightLaw, newest)}) {
+       {std::pair(cases::SightLaw::echo, newest - 4), std::pair(cases::kNewestSightLaw, newest)}) {
     guidance.sight_law = law;
     const auto text = criterion_from("vis_joint >= 0.5", law);
     ASSERT_TRUE(text.has_value());
@@ -168,7 +168,7 @@ TEST(RuleTest, EachProblemHasItsCode) {
   EXPECT_EQ(problems_of(rule, pictures)[0].text, "vis_joint is measured by version " + std::to_string(newest) +
                                                      ", not " + std::to_string(newest - 1) +
                                                      ": name that one, and see whether the limit still fits");
-  pictures.sight_law = cases::SightLaw::clutter;
+  pictures.sight_law = cases::SightLaw::material;
   EXPECT_TRUE(problems_of(rule, pictures).empty());
   rule.criteria = {*criterion_from("dap <= 1")};
   EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"not_meaningful"});

@@ -38,11 +38,12 @@ TEST(Visibility, FramesHoldUntilTheNextAtAnyRate) {
 TEST(Visibility, OfTheOlderLawItIsTheVersionBefore) {
   const auto recording = straight([](double t) { return 10.0 * t; }, 5.0);
   const auto now = measure_all(*make_signals(setting(), recording));
-  using Count = std::array<int, 4>;  // of metrics that are one, two, three and four versions before
-  for (const auto& [law, expected] : {std::pair{cases::SightLaw::clutter, Count{4, 0, 0, 0}},
-                                      {cases::SightLaw::scatter, {7, 4, 0, 0}},
-                                      {cases::SightLaw::echo, {7, 0, 4, 0}},
-                                      {cases::SightLaw::half_slice, {4, 5, 0, 4}}}) {
+  using Count = std::array<int, 5>;  // of metrics that are one, two, … and five versions before
+  for (const auto& [law, expected] : {std::pair{cases::SightLaw::material, Count{11, 0, 0, 0, 0}},
+                                      {cases::SightLaw::clutter, {7, 4, 0, 0, 0}},
+                                      {cases::SightLaw::scatter, {0, 7, 4, 0, 0}},
+                                      {cases::SightLaw::echo, {0, 7, 0, 4, 0}},
+                                      {cases::SightLaw::half_slice, {2, 2, 5, 0, 4}}}) {
     AttemptSetting old = setting();
     old.sight_law = law;
     const auto then = measure_all(*make_signals(old, recording));
@@ -53,7 +54,7 @@ TEST(Visibility, OfTheOlderLawItIsTheVersionBefore) {
       EXPECT_EQ(now[i].version, info.version) << now[i].id;
       EXPECT_GE(then[i].version, 1) << now[i].id;
       EXPECT_EQ(then[i].value, now[i].value) << now[i].id;
-      for (int k = 1; k <= 4; ++k) before[static_cast<std::size_t>(k - 1)] += then[i].version == info.version - k;
+      for (int k = 1; k <= 5; ++k) before[static_cast<std::size_t>(k - 1)] += then[i].version == info.version - k;
     }
     EXPECT_EQ(before, expected) << base::name_of(cases::kSightLawNames, law);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <numbers>
 
 #include "assessment/operators/lesion_site.h"
 #include "assessment/operators/plan.h"
@@ -148,6 +149,36 @@ TEST(PlanPuncture, OutOfPlaneTheProbeStandsAcrossTheWay) {
   EXPECT_GT(held, 20);
 }
 
+TEST(ProbeOver, InPlaneTheProbeIsRockedAsTheNeedleGoesInAndBackAgain) {
+  PuncturePlan plan;
+  plan.target_lps_mm = {0, -40, 0};
+  plan.entry_lps_mm = {-60, -100, 0};
+  plan.direction = glm::normalize(plan.target_lps_mm - plan.entry_lps_mm);
+  plan.depth_mm = glm::distance(plan.target_lps_mm, plan.entry_lps_mm);
+  const auto leaning = [](double deg) {  // towards the needle
+    const double by = deg * std::numbers::pi / 180.0;
+    return cases::ToolPose{{0, -90, 0}, {-std::sin(by), std::cos(by), 0}, {std::cos(by), std::sin(by), 0}};
+  };
+  plan.probe_first = leaning(0.0);
+  plan.probe = leaning(30.0);
+  double before_deg = -1.0;
+  for (double inserted_mm = -10.0; inserted_mm <= plan.depth_mm + 10.0; inserted_mm += 1.0) {
+    const cases::ToolPose probe = probe_over(plan, inserted_mm);
+    EXPECT_NEAR(glm::length(probe.axis), 1.0, 1e-12);
+    EXPECT_NEAR(glm::length(probe.side), 1.0, 1e-12);
+    EXPECT_NEAR(glm::dot(probe.axis, probe.side), 0.0, 1e-12);
+    EXPECT_NEAR(plane_normal(probe).z, 1.0, 1e-12) << "the plane keeps needle and target";
+    const double deg = std::acos(std::clamp(probe.axis.y, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+    EXPECT_GE(deg, before_deg - 1e-6) << inserted_mm;
+    before_deg = deg;
+  }
+  EXPECT_EQ(probe_over(plan, -1.0).axis, plan.probe_first.axis);
+  EXPECT_EQ(probe_over(plan, plan.depth_mm).axis, plan.probe.axis);
+  EXPECT_NEAR(std::acos(probe_over(plan, 0.5 * plan.depth_mm).axis.y), 15.0 * std::numbers::pi / 180.0, 1e-9);
+  plan.probe_first = plan.probe;
+  EXPECT_EQ(probe_over(plan, 5.0).side, plan.probe.side) << "held still, it stands where it was planned to";
+}
+
 TEST(PlanPuncture, TellsWhereTheOrganBegins) {
   PathLimits limits;
   const std::vector<cases::Structure> organ = {
@@ -183,7 +214,7 @@ TEST(ScriptedOperator, GoesOnAfterSearchingForATipThatNeverShows) {
   plan.entry_lps_mm = {0, -100, 0};
   plan.direction = {0, 1, 0};
   plan.depth_mm = 50.0;
-  plan.probe = {{40, -90, 0}, {0, 1, 0}, {1, 0, 0}};
+  plan.probe = plan.probe_first = {{40, -90, 0}, {0, 1, 0}, {1, 0, 0}};
   for (const double shows_from_mm : {0.0, 30.0}) {
     plan.tip_shows_from_mm = shows_from_mm;
     ScriptedOperator person(*named_profile("expert"), plan, cases::Instrument{}, 1);

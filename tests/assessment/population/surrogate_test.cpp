@@ -321,7 +321,7 @@ TEST(Surrogate, AnyDifferenceOfItsMarkIsTold) {
   other = mark_of_today(kStep, "case-1", "Ball", "x", cases::SightLaw::echo);
   EXPECT_NE(difference(mark, other), "");
   const std::size_t sight = fitted().index_of("vis_joint");
-  EXPECT_EQ(other.metrics.at(sight).version, mark.metrics.at(sight).version - 3);
+  EXPECT_EQ(other.metrics.at(sight).version, mark.metrics.at(sight).version - 4);
   other = mark;
   ++other.people_version;
   EXPECT_NE(difference(mark, other), "");

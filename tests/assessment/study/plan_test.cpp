@@ -141,14 +141,16 @@ TEST(Plan, VersionsAreThoseOfTheCasesLawOfSight) {
       return one.text.find("primary[0].version is not the one that is measured now at that case") == 0;
     });
   };
-  EXPECT_FALSE(is_refused(of_version(newest), cases::SightLaw::material));
-  EXPECT_TRUE(is_refused(of_version(newest), cases::SightLaw::clutter));
-  EXPECT_FALSE(is_refused(of_version(newest - 1), cases::SightLaw::clutter));
-  EXPECT_TRUE(is_refused(of_version(newest - 1), cases::SightLaw::scatter));
-  EXPECT_FALSE(is_refused(of_version(newest - 2), cases::SightLaw::scatter));
-  EXPECT_TRUE(is_refused(of_version(newest - 2), cases::SightLaw::echo));
-  EXPECT_FALSE(is_refused(of_version(newest - 3), cases::SightLaw::echo));
-  EXPECT_FALSE(is_refused(of_version(newest - 4), cases::SightLaw::half_slice));
+  EXPECT_FALSE(is_refused(of_version(newest), cases::SightLaw::tilt));
+  EXPECT_TRUE(is_refused(of_version(newest), cases::SightLaw::material));
+  EXPECT_FALSE(is_refused(of_version(newest - 1), cases::SightLaw::material));
+  EXPECT_TRUE(is_refused(of_version(newest - 1), cases::SightLaw::clutter));
+  EXPECT_FALSE(is_refused(of_version(newest - 2), cases::SightLaw::clutter));
+  EXPECT_TRUE(is_refused(of_version(newest - 2), cases::SightLaw::scatter));
+  EXPECT_FALSE(is_refused(of_version(newest - 3), cases::SightLaw::scatter));
+  EXPECT_TRUE(is_refused(of_version(newest - 3), cases::SightLaw::echo));
+  EXPECT_FALSE(is_refused(of_version(newest - 4), cases::SightLaw::echo));
+  EXPECT_FALSE(is_refused(of_version(newest - 5), cases::SightLaw::half_slice));
 }
 
 // What is not asked for is not in the canonical text: plans of before keep their hash.

@@ -59,7 +59,7 @@ TEST_F(CutsTest, AreOfTheVersionThatIsMeasuredAtTheCase) {
   ASSERT_TRUE(propose_cut(library_, of_sight, "Mona"));
   const auto cuts = list_cuts(library_, case_id_);
   ASSERT_EQ(cuts.size(), 2U);
-  EXPECT_EQ(std::min(cuts[0].version, cuts[1].version), newest - 3);
+  EXPECT_EQ(std::min(cuts[0].version, cuts[1].version), newest - 4);
   EXPECT_EQ(std::max(cuts[0].version, cuts[1].version), newest);
 }
 

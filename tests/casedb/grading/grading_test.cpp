@@ -388,7 +388,7 @@ TEST_F(GradingTest, AnOlderLawOfSightHasItsOwnVersions) {
     const std::string person = consultant("Consultant " + std::to_string(i));
     for (int k = 0; k < 5; ++k) {
       NewAttempt made = new_attempt(person, 1.0, 20.0);
-      made.metrics.push_back({"vis_joint", newest - 3, 0.1 * i, "share", ""});
+      made.metrics.push_back({"vis_joint", newest - 4, 0.1 * i, "share", ""});
       static_cast<void>(add_attempt(library_, made).value());
     }
   }
@@ -396,20 +396,20 @@ TEST_F(GradingTest, AnOlderLawOfSightHasItsOwnVersions) {
   const auto shown = std::find_if(side.metrics.begin(), side.metrics.end(),
                                   [](const auto& one) { return std::string_view(one.id) == "vis_joint"; });
   ASSERT_NE(shown, side.metrics.end());
-  EXPECT_EQ(shown->version, newest - 3);
+  EXPECT_EQ(shown->version, newest - 4);
   EXPECT_EQ(side.groups.at(0).of_metrics.at(static_cast<std::size_t>(shown - side.metrics.begin())).n, 5U);
   user("Dora", Role::director);
   ASSERT_TRUE(set_one());
   const auto set = standard_of(library_, task());
   ASSERT_TRUE(set.has_value());
-  EXPECT_NE(set->find("vis_joint", newest - 3), nullptr);
+  EXPECT_NE(set->find("vis_joint", newest - 4), nullptr);
   EXPECT_EQ(set->find("vis_joint", newest), nullptr);
   // Of the newest law these attempts were not measured.
-  library_.database().run("UPDATE training_case SET sight_law = 'material'");
+  library_.database().run("UPDATE training_case SET sight_law = 'tilt'");
   const Comparison newer = compare_attempts(library_, case_id_).value();
   EXPECT_TRUE(std::none_of(newer.metrics.begin(), newer.metrics.end(),
                            [](const auto& one) { return std::string_view(one.id) == "vis_joint"; }));
-  EXPECT_EQ(consultants_of(library_, task()).find("vis_joint", newest - 3), nullptr);
+  EXPECT_EQ(consultants_of(library_, task()).find("vis_joint", newest - 4), nullptr);
 }
 
 }  // namespace

@@ -81,8 +81,9 @@ class TrainDrillTest : public testing::Test {
   };
   void do_it(const Act& act) {
     const auto& [x, y] = middle_;
+    const auto drag = [&] { trainee_->screen().drag(x, y, x + act.right_px, y + act.down_px, act.button, 0.1); };
     if (act.button > 0) {
-      trainee_->screen().drag(x, y, x + act.right_px, y + act.down_px, act.button, 0.1);
+      act.fine ? trainee_->screen().with_key("shift", drag) : drag();
     } else if (act.notches != 0) {
       trainee_->screen().point(x, y);
       trainee_->screen().wheel(act.notches, 300);  // those of one frame together count as a fast wheel
@@ -104,7 +105,7 @@ class TrainDrillTest : public testing::Test {
   // What is left after a drag tells how far it went.
   void learn(const std::string& before, const Act& act, const std::string& after) {
     const bool drag = has(before, "(drag") && has(after, "(drag") && act.button == 1;
-    if (!drag || is_upright(before) != is_upright(after)) return;
+    if (!drag || act.fine || is_upright(before) != is_upright(after)) return;
     const double gone_mm = std::abs(way_in(before) - way_in(after)), px = std::abs(act.right_px + act.down_px);
     if (gone_mm > 2.0) px_per_mm_ = std::clamp(px / gone_mm, 0.1, 10.0);
   }
@@ -114,7 +115,8 @@ class TrainDrillTest : public testing::Test {
     act.button = has(words, "middle drag") ? 2 : has(words, "right drag") ? 3 : 1;
     const double px =
         std::min(150.0, turns ? kPxPerDegree * amount_in(words, "°") : px_per_mm_ * amount_in(words, " mm"));
-    const int by_px = std::max(1, static_cast<int>(std::lround(px)));
+    act.fine = has(words, "with Shift");
+    const int by_px = std::max(1, static_cast<int>(std::lround(act.fine ? 10.0 * px : px)));
     if (has(words, "to the right")) act.right_px = by_px;
     if (has(words, "to the left")) act.right_px = -by_px;
     if (has(words, "down by")) act.down_px = by_px;
@@ -155,23 +157,24 @@ class TrainDrillTest : public testing::Test {
       act = {out ? "Prior" : "Next", kSPerMmOn * mm};
     return act;
   }
-  // To and fro in all four ways.
+  // To and fro in all four ways, farther each time round.
   Act search(int step, bool mouse) const {
     struct Leg {
       int across, down, steps;
     };
     static constexpr std::array<Leg, 6> kLegs = {
         {{0, -1, 4}, {0, 1, 8}, {0, -1, 4}, {1, 0, 4}, {-1, 0, 8}, {1, 0, 4}}};
-    constexpr double kStepMm = 7.0;
+    double step_mm = 7.0;
     for (std::size_t i = 0;; i = (i + 1) % kLegs.size()) {
       const Leg& leg = kLegs[i];
       if (step >= leg.steps) {
         step -= leg.steps;
+        if (i + 1 == kLegs.size()) step_mm *= 1.5;
         continue;
       }
-      const int px = std::max(1, static_cast<int>(std::lround(kStepMm * px_per_mm_)));
+      const int px = std::max(1, static_cast<int>(std::lround(step_mm * px_per_mm_)));
       if (mouse) return {"", 0.0, 1, leg.across * px, leg.down * px};
-      return {leg.across > 0 ? "d" : leg.across < 0 ? "a" : leg.down > 0 ? "s" : "w", kSPerMm * kStepMm};
+      return {leg.across > 0 ? "d" : leg.across < 0 ? "a" : leg.down > 0 ? "s" : "w", kSPerMm * step_mm};
     }
   }
 

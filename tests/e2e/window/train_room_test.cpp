@@ -271,7 +271,9 @@ TEST_F(TrainRoomTest, LampsTellWhetherTipAndTargetAreInThePicture) {
   ASSERT_NO_FATAL_FAILURE(trainee_->take("needle"));
   press("g");
   ASSERT_TRUE(comes("The needle is in its guide")) << now();
-  ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(40.0));
+  // In the wall's muscle, which lies from 20 to 40 mm on its way: liver behind it is brighter and hides a tip that
+  // the beams meet so aslant (docs/decisions/0106).
+  ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(30.0));
   EXPECT_TRUE(fixtures::until([&] { return trainee_->shows("tip in the picture"); })) << now();
   trainee_->keep_picture();
   press("f");

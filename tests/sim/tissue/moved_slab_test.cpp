@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 
 #include "sim/base/rng.h"
@@ -64,15 +66,18 @@ TEST(MovedSlab, IsRightBetweenItsNodesAndBetterTheFinerItIs) {
       const glm::dvec3 rest = place(part, rng);
       const glm::dvec3 miss = slab.moved_mm(rest) - (displaced(displacement, rest) - rest);
       squares += glm::dot(miss, miss);
-      // A row's column says the same.
+      // The columns about it say the same.
       const glm::dvec3 in = slab.slab_of(rest);
       const double layer = (in.z - part.low_mm.z) / part.layer_mm;
       const int below = static_cast<int>(layer);
-      const auto columns = slab.columns(in.x, in.y);
+      const auto between = slab.between(in.x, in.y);
       const auto at = [&](int one) {
-        return columns.beside(0, one) + columns.down * (columns.beside(1, one) - columns.beside(0, one));
+        const auto beside = [&](int j) {
+          return glm::mix(slab.column(between.i, j)[one], slab.column(between.i + 1, j)[one], between.right);
+        };
+        return glm::mix(beside(between.j), beside(between.j + 1), between.down);
       };
-      const glm::vec3 u = at(below) + static_cast<float>(layer - below) * (at(below + 1) - at(below));
+      const glm::vec3 u(glm::mix(at(below), at(below + 1), static_cast<float>(layer - below)));
       ASSERT_LT(glm::length(glm::dvec3(u) - slab.moved_mm(rest)), 1e-4);
     }
     const double rms = std::sqrt(squares / kPlaces);
@@ -81,6 +86,12 @@ TEST(MovedSlab, IsRightBetweenItsNodesAndBetterTheFinerItIs) {
     EXPECT_LT(rms, 0.03 * spacing_mm) << spacing_mm;
     before = rms;
   }
+}
+
+TEST(MovedSlab, IsStillWhereNothingMoves) {
+  const SlabPart part = tilted(3.0);
+  EXPECT_TRUE(MovedSlab({}, part).is_still(part.low_mm, part.high_mm));
+  EXPECT_FALSE(MovedSlab(moving(), part).is_still(part.low_mm, part.high_mm));
 }
 
 TEST(MovedSlab, FindsItsOwnWayBack) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <utility>
 
 #include "shaders/shared/ultrasound.glsl.h"
@@ -11,6 +12,7 @@
 #include "sim/imaging/ultrasound/speckle/cubes.h"
 #include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/speckle/scatterers.h"
+#include "sim/imaging/ultrasound/speckle/turned_columns.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -63,14 +65,14 @@ class ScattererField::BandWriter {
   const float reach_;  // beams
   const Tile tile_;
   const bool moving_;
+  const bool lesions_;                // about the tile, of which no scatterer lies farther than a cube from its box
   const int inner_, outer_, middle_;  // the lattice's axes
   TileFrame frame_{};
   Chunk chunk_;
   Columns columns_;
   int first_layer_ = 0;  // of the slab's, in the tile's box
-  glm::vec3 axes_[3];    // the tile's
-  tissue::MovedSlab::Columns between_{};
-  Sides sides_;  // of between_
+  TurnedColumns turned_;
+  std::optional<int> line_at_;  // the outer number of the row that turned_ went to
 };
 
 ScattererField::BandWriter::BandWriter(const ScattererField& field, const Band& band, int first, int end,
@@ -84,6 +86,8 @@ ScattererField::BandWriter::BandWriter(const ScattererField& field, const Band& 
       reach_(field.most_reach(band)),
       tile_(field.tile(band, middle_beam_, 0.5 * (end - 1 - first) + static_cast<double>(reach_))),
       moving_(!field.lies_still(tile_)),
+      lesions_(
+          field.tissue_at_.has_lesions_near(tile_.center_lps_mm, glm::length(tile_.half_mm) + band.spacing_mm)),
       inner_(tile_.inner),
       outer_((tile_.inner + 1) % 3),
       middle_((tile_.inner + 2) % 3) {
@@ -101,7 +105,6 @@ ScattererField::BandWriter::BandWriter(const ScattererField& field, const Band& 
   f.half_thickness = static_cast<float>(band.half_thickness_mm);
   f.first_beam = static_cast<float>(first) - reach_;
   f.end_beam = static_cast<float>(end - 1) + reach_;
-  for (int a = 0; a < 3; ++a) axes_[a] = glm::vec3(tile_.axes[a]);
   if (moving_) choose_layers();
 }
 
@@ -187,20 +190,21 @@ void ScattererField::BandWriter::choose_layers() noexcept {
   columns_.low_mm = static_cast<float>(part.low_mm.z + first_layer_ * part.layer_mm);
   columns_.per_mm = static_cast<float>(1.0 / part.layer_mm);
   CHECK(columns_.layers <= Columns::kRoom);
-  sides_.resize(columns_.layers);
+  const glm::vec3 axes[3] = {glm::vec3(tile_.axes[0]), glm::vec3(tile_.axes[1]), glm::vec3(tile_.axes[2])};
+  const auto across_mm = [&](double side) {
+    return glm::dvec2(tile_.center_lps_mm[outer_] + side * tile_.half_cells[outer_] * band_.spacing_mm,
+                      tile_.center_lps_mm[middle_] + side * tile_.half_cells[middle_] * band_.spacing_mm);
+  };
+  turned_.turn(slab, axes, across_mm(-1.0), across_mm(1.0), first_layer_, columns_.layers);
 }
 
 // All scatterers of a row move as the slab's column at the row's middle does.
 void ScattererField::BandWriter::add_column(const Row& row) {
   if (columns_.count + columns_.layers > Columns::kRoom) flush();
   const double s = band_.spacing_mm;
-  const auto at = field_.motion_->slab().columns((row.outer + 0.5) * s, (row.middle + 0.5) * s);
-  if (at.low[0] != between_.low[0] || at.right != between_.right) {
-    between_ = at;
-    for (int side = 0; side < 2; ++side)
-      for (int l = 0; l < columns_.layers; ++l) sides_.set(side, l, at.beside(side, first_layer_ + l));
-  }
-  sides_.lay(at.down, axes_, columns_.mm + columns_.count);
+  if (line_at_ != row.outer) turned_.go_to((row.outer + 0.5) * s);
+  line_at_ = row.outer;
+  turned_.lay((row.middle + 0.5) * s, columns_.mm + columns_.count);
   columns_.count += columns_.layers;
 }
 
@@ -230,7 +234,7 @@ void ScattererField::BandWriter::lay_chunk() const {
   const auto& phase = phases();
   const TissueAt& tissue_at = field.tissue_at_;
   // As the GPU has it: a tile's frame in voxels.
-  const bool blends = blends_voxels(field.view_), in_lps = !blends || tissue_at.has_lesions();
+  const bool blends = blends_voxels(field.view_), in_lps = !blends || lesions_;
   const glm::vec3 start_voxels(tissue_at.voxels_at(start)), x_voxels(tissue_at.voxels_along(x_axis)),
       y_voxels(tissue_at.voxels_along(y_axis)), z_voxels(tissue_at.voxels_along(z_axis));
 

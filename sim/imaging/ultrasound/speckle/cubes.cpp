@@ -48,7 +48,33 @@ template <bool curved>
     see<curved>(f, n, x, y, z, chunk);
   }
 }
-// Three loops, so that only the middle one, which looks up columns, runs one scatterer at a time.
+// Looks up columns, four scatterers at a time, and turns them from one scatterer's xyz to four's x, y and z: as
+// loops over numbers compilers do neither well.
+using Four = float __attribute__((vector_size(16)));
+[[gnu::always_inline]] inline void look_up(const Columns& columns, Chunk& chunk) noexcept {
+  static_assert(Chunk::kRoom % 4 == 0);
+  for (int n = chunk.count; n % 4 != 0; ++n) chunk.column[n] = 0;
+  for (int n = 0; n < chunk.count; n += 4) {
+    Four moved[4];
+    for (int i = 0; i < 4; ++i) {
+      Four low, high;
+      const float(*at)[4] = columns.mm + chunk.column[n + i];
+      std::memcpy(&low, at[0], sizeof low);
+      std::memcpy(&high, at[1], sizeof high);
+      moved[i] = low + chunk.part[n + i] * (high - low);
+    }
+    const Four xy_first = __builtin_shufflevector(moved[0], moved[1], 0, 4, 1, 5),
+               xy_last = __builtin_shufflevector(moved[2], moved[3], 0, 4, 1, 5),
+               x = __builtin_shufflevector(xy_first, xy_last, 0, 1, 4, 5),
+               y = __builtin_shufflevector(xy_first, xy_last, 2, 3, 6, 7),
+               z_first = __builtin_shufflevector(moved[0], moved[1], 2, 6, 2, 6),
+               z_last = __builtin_shufflevector(moved[2], moved[3], 2, 6, 2, 6),
+               z = __builtin_shufflevector(z_first, z_last, 0, 1, 4, 5);
+    std::memcpy(chunk.moved_x + n, &x, sizeof x);
+    std::memcpy(chunk.moved_y + n, &y, sizeof y);
+    std::memcpy(chunk.moved_z + n, &z, sizeof z);
+  }
+}
 template <bool curved>
 [[gnu::always_inline]] inline void place_moving(const TileFrame& f, const Columns& columns, Chunk& chunk) noexcept {
   const float low_mm = columns.low_mm, per_mm = columns.per_mm;
@@ -66,16 +92,11 @@ template <bool curved>
     chunk.part[n] = layer - static_cast<float>(below);
     chunk.column[n] += below;
   }
+  look_up(columns, chunk);
   for (int n = 0; n < chunk.count; ++n) {
-    const float *low = columns.mm[chunk.column[n]], *high = low + 4;
-    float moved[4];
-    for (int c = 0; c < 4; ++c) moved[c] = low[c] + chunk.part[n] * (high[c] - low[c]);
-    std::memcpy(chunk.moved[n], moved, sizeof moved);
-  }
-  for (int n = 0; n < chunk.count; ++n) {
-    const float y = chunk.at_y[n] + chunk.moved[n][1];
+    const float y = chunk.at_y[n] + chunk.moved_y[n];
     chunk.y[n] = y;
-    see<curved>(f, n, chunk.x[n] + chunk.moved[n][0], y, chunk.z[n] + chunk.moved[n][2], chunk);
+    see<curved>(f, n, chunk.x[n] + chunk.moved_x[n], y, chunk.z[n] + chunk.moved_z[n], chunk);
   }
 }
 SELDINGER_FOR_AVX2_TOO void place_curved(const TileFrame& f, Chunk& chunk) noexcept {
@@ -99,18 +120,6 @@ void place(const TileFrame& f, bool curved, const Columns* moving, Chunk& chunk)
     curved ? place_moving_curved(f, *moving, chunk) : place_moving_straight(f, *moving, chunk);
   else
     curved ? place_curved(f, chunk) : place_straight(f, chunk);
-}
-
-// Four numbers at a time, of which the last is nobody's.
-void Sides::lay(float part, const glm::vec3 (&axes)[3], float (*mm)[4]) const noexcept {
-  const float by_x[4] = {axes[0].x, axes[1].x, axes[2].x, 0.0F}, by_y[4] = {axes[0].y, axes[1].y, axes[2].y, 0.0F},
-              by_z[4] = {axes[0].z, axes[1].z, axes[2].z, 0.0F};
-  for (const Layer& layer : layers_) {
-    float u[4], along[4];
-    for (int c = 0; c < 4; ++c) u[c] = layer.xyz[0][c] + part * (layer.xyz[1][c] - layer.xyz[0][c]);
-    for (int c = 0; c < 4; ++c) along[c] = u[0] * by_x[c] + u[1] * by_y[c] + u[2] * by_z[c];
-    std::memcpy(*mm++, along, sizeof along);
-  }
 }
 
 }  // namespace seldinger::imaging

@@ -4,8 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
-#include <vector>
 
 namespace seldinger::imaging {
 
@@ -23,32 +21,13 @@ struct Chunk {
   float at_y[kRoom];
   std::int32_t column[kRoom];  // where its row's column begins; later, the layer below it
   float part[kRoom];           // of the way from there to the layer above
-  float moved[kRoom][4];       // xyz
+  float moved_x[kRoom], moved_y[kRoom], moved_z[kRoom];
 };
 
 struct TileFrame {
   float radius, per_radian, beam_middle;  // straight: per_radian is per mm
   float a[3], b[3], c[3];                 // the cube's edges
   float from, to, half_thickness, first_beam, end_beam;
-};
-
-// Two of the slab's columns with a row between them, xyz layer by layer: rows that follow each other have them in
-// common.
-class Sides {
- public:
-  void resize(int layers) { layers_.resize(static_cast<std::size_t>(layers)); }
-  void set(int side, int layer, const glm::vec3& u) noexcept {
-    float* const xyz = layers_[static_cast<std::size_t>(layer)].xyz[side];
-    for (int c = 0; c < 3; ++c) xyz[c] = u[c];
-  }
-  // So far of the way from the first to the second, along the axes.
-  void lay(float part, const glm::vec3 (&axes)[3], float (*mm)[4]) const noexcept;
-
- private:
-  struct Layer {
-    float xyz[2][4] = {};
-  };
-  std::vector<Layer> layers_;
 };
 
 struct Columns {

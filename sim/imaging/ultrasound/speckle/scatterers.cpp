@@ -122,9 +122,9 @@ ScattererField::Tile ScattererField::tile(const Band& band, double middle, doubl
   return t;
 }
 
-// Between which u lies in a box of the tile's frame.
-tissue::MovedSlab::Range ScattererField::moved_in(const Tile& tile, const glm::dvec3& low_mm,
-                                                  const glm::dvec3& high_mm) const noexcept {
+// What holds a box of the tile's frame, in the slab's coordinates.
+std::pair<glm::dvec3, glm::dvec3> ScattererField::box_in_slab(const Tile& tile, const glm::dvec3& low_mm,
+                                                              const glm::dvec3& high_mm) const noexcept {
   const tissue::MovedSlab& slab = motion_->slab();
   glm::dvec3 box_low(1e9), box_high(-1e9);
   for (int corner = 0; corner < 8; ++corner) {
@@ -134,7 +134,7 @@ tissue::MovedSlab::Range ScattererField::moved_in(const Tile& tile, const glm::d
     box_low = glm::min(box_low, p);
     box_high = glm::max(box_high, p);
   }
-  return slab.range(box_low, box_high, tile.axes);
+  return {box_low, box_high};
 }
 
 // Grows a box until it holds, at rest, all tissue that now lies in the tile. The range of the displacement u over
@@ -149,7 +149,8 @@ void ScattererField::to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& h
   for (int round = 0; round < kRounds; ++round) {
     low_mm = low - most;
     high_mm = high - least;
-    const auto range = moved_in(tile, low_mm, high_mm);
+    const auto [box_low, box_high] = box_in_slab(tile, low_mm, high_mm);
+    const auto range = motion_->slab().range(box_low, box_high, tile.axes);
     const bool more =
         glm::any(glm::lessThan(range.low_mm, least)) || glm::any(glm::greaterThan(range.high_mm, most));
     if (!more) break;
@@ -161,8 +162,8 @@ void ScattererField::to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& h
 // Nothing moves where its cubes lie, as nearly everywhere about an artery that beats.
 bool ScattererField::lies_still(const Tile& tile) const noexcept {
   if (motion_ == nullptr) return true;
-  const auto range = moved_in(tile, tile.center_mm - tile.half_mm, tile.center_mm + tile.half_mm);
-  return range.low_mm == glm::dvec3(0.0) && range.high_mm == glm::dvec3(0.0);
+  const auto [low, high] = box_in_slab(tile, tile.center_mm - tile.half_mm, tile.center_mm + tile.half_mm);
+  return motion_->slab().is_still(low, high);
 }
 
 }  // namespace seldinger::imaging

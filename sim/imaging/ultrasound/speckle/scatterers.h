@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/imaging/ultrasound/speckle/speckle.h"
@@ -63,8 +64,8 @@ class ScattererField final : public SpeckleField {
   class BandWriter;
   void add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const;
   void to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& high_mm) const noexcept;
-  tissue::MovedSlab::Range moved_in(const Tile& tile, const glm::dvec3& low_mm,
-                                    const glm::dvec3& high_mm) const noexcept;
+  std::pair<glm::dvec3, glm::dvec3> box_in_slab(const Tile& tile, const glm::dvec3& low_mm,
+                                                const glm::dvec3& high_mm) const noexcept;
   bool lies_still(const Tile& tile) const noexcept;
 
   const UltrasoundView& view_;

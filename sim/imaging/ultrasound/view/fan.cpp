@@ -71,6 +71,7 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
       const Texture texture(lesion, echo);
       const glm::dvec3& center = lesion.center_lps_mm;
       lesions_.push_back({center,
+                          lesion.radius_mm,
                           lesion.radius_mm * lesion.radius_mm,
                           inner_mm * inner_mm,
                           {echo.inside, speckle_amplitude(echo.inside_db + echo.texture_db), center,
@@ -89,6 +90,12 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   echogenicity_ = tissue.echogenicity.empty() ? nullptr : tissue.echogenicity.data();
   amplitude_ = speckle_amplitudes();
   offset_ = echo_offset_amplitudes().data();
+}
+
+bool TissueAt::has_lesions_near(const glm::dvec3& p_lps_mm, double reach_mm) const noexcept {
+  return std::any_of(lesions_.begin(), lesions_.end(), [&](const Sphere& one) {
+    return glm::distance(one.center_lps_mm, p_lps_mm) <= one.radius_mm + reach_mm;
+  });
 }
 
 glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept {

@@ -62,7 +62,7 @@ class TissueAt {
     if (part == nullptr) return std::nullopt;
     return part->texture ? part->amplitude * part->texture->at(p_lps_mm - part->center_lps_mm) : part->amplitude;
   }
-  bool has_lesions() const noexcept { return !lesions_.empty(); }
+  bool has_lesions_near(const glm::dvec3& p_lps_mm, double reach_mm) const noexcept;
   // Of the volume alone, at a place told in voxels: index + ½, so that truncation is the nearest.
   float speckle_of_voxel(const glm::vec3& voxels) const noexcept {
     const bool inside = voxels.x >= 0.0F && voxels.y >= 0.0F && voxels.z >= 0.0F && voxels.x < size_.x &&
@@ -85,7 +85,7 @@ class TissueAt {
   };
   struct Sphere {
     glm::dvec3 center_lps_mm;
-    double radius_2, inner_2;
+    double radius_mm, radius_2, inner_2;
     Part inside, rim;
   };
   const Part* lesion_at(const glm::dvec3& p_lps_mm) const noexcept {

@@ -103,24 +103,36 @@ RestFan RestFan::when_asked(const UltrasoundView& view, double spacing_mm, doubl
   return fan;
 }
 
-void RestFan::find(const Nodes& nodes) const {
-  if (!when_asked_) return;
-  missing_.clear();
-  at_mm_.clear();
+void RestFan::note_missing(const Nodes& nodes) const {
   for (int row = nodes.first_row; row < nodes.end_row; ++row)
     for (int d = nodes.first_depth; d < nodes.end_depth; ++d)
       if (std::isnan(node(row, d).x)) {
         missing_.push_back(index(row, d));
         at_mm_.push_back(ways_[static_cast<std::size_t>(row)].at(d / depths_per_mm_));
+        back_mm_[missing_.back()] = glm::dvec3(0.0);  // noted
       }
-  if (missing_.empty()) return;
-  rest_mm_.resize(at_mm_.size());
-  when_asked_(at_mm_, rest_mm_);
-  for (std::size_t i = 0; i < missing_.size(); ++i) back_mm_[missing_[i]] = rest_mm_[i] - at_mm_[i];
 }
 
-void RestFan::ask(double first_beam, double last_beam, double first_mm, double last_mm) const {
-  find({between(first_beam).row, between(last_beam).row + 2, depth_above(first_mm), depth_above(last_mm) + 2});
+void RestFan::find_missing() const {
+  rest_mm_.resize(at_mm_.size());
+  if (!missing_.empty()) when_asked_(at_mm_, rest_mm_);
+  for (std::size_t i = 0; i < missing_.size(); ++i) back_mm_[missing_[i]] = rest_mm_[i] - at_mm_[i];
+  missing_.clear();
+  at_mm_.clear();
+}
+
+void RestFan::find(const Nodes& nodes) const {
+  if (!when_asked_) return;
+  note_missing(nodes);
+  find_missing();
+}
+
+void RestFan::ask(std::span<const Box> boxes) const {
+  if (!when_asked_) return;
+  for (const Box& box : boxes)
+    note_missing({between(box.first_beam).row, between(box.last_beam).row + 2, depth_above(box.first_mm),
+                  depth_above(box.last_mm) + 2});
+  find_missing();
 }
 
 RestFan::Between RestFan::between(double beam) const noexcept {

@@ -73,8 +73,12 @@ class RestFan {
   // thread's; without back_mm().
   using RestOfMany = std::function<void(std::span<const glm::dvec3> at_lps_mm, std::span<glm::dvec3> rest_lps_mm)>;
   static RestFan when_asked(const UltrasoundView& view, double spacing_mm, double beside, RestOfMany rest_of);
-  // Asks for all that rest_of() will be asked for between two beams and two depths.
-  void ask(double first_beam, double last_beam, double first_mm, double last_mm) const;
+  // Asks at once for all that rest_of() will be asked for between these beams and depths, and path_down_to() where
+  // they begin at the face.
+  struct Box {
+    double first_beam, last_beam, first_mm, last_mm;
+  };
+  void ask(std::span<const Box> boxes) const;
 
   glm::dvec3 rest_of(double beam, double depth_mm) const { return rest_of(fan_.way(beam), beam, depth_mm); }
   glm::dvec3 rest_of(const Fan::Way& way, double beam, double depth_mm) const;      // that beam's
@@ -103,6 +107,8 @@ class RestFan {
   struct Nodes {
     int first_row, end_row, first_depth, end_depth;
   };
+  void note_missing(const Nodes& nodes) const;
+  void find_missing() const;
   void find(const Nodes& nodes) const;
   const glm::dvec3& node(int row, int depth) const noexcept { return back_mm_[index(row, depth)]; }
   std::size_t index(int row, int depth) const noexcept {

@@ -31,6 +31,19 @@ void go_straight(const glm::dvec3& start, const glm::dvec3& direction, SideBySid
   }
 }
 
+// Those from `first` to `end`, which lie between two nodes.
+SELDINGER_FOR_AVX2_TOO
+void go_aside(const glm::dvec3& at_node, const glm::dvec3& to_next, double node, double per_mm, std::size_t first,
+              std::size_t end, SideBySide& at) noexcept {
+  const glm::dvec3 low = at_node, way = to_next;
+  for (std::size_t n = first; n < end; ++n) {
+    const double part = at.depth_mm[n] * per_mm - node;
+    at.x[n] = at.x[n] + low.x + part * way.x;
+    at.y[n] = at.y[n] + low.y + part * way.y;
+    at.z[n] = at.z[n] + low.z + part * way.z;
+  }
+}
+
 // Index + ½ of a voxel from LPS, by columns.
 struct Grid {
   glm::dvec3 a, b, c, d, size;
@@ -64,14 +77,11 @@ void square_off(const glm::dvec3& from, const SideBySide& at, double* off_2) noe
 void BeamPath::at(SideBySide& at) const noexcept {
   go_straight(start_lps_mm_, direction_, at);
   if (back_mm_.empty()) return;
-  for (std::size_t n = 0; n < at.count; ++n) {
-    const double nodes = at.depth_mm[n] * per_mm_;
-    const std::size_t node = node_at(nodes);
-    const double part = nodes - static_cast<double>(node);
-    const glm::dvec3 &low = back_mm_[node], &high = back_mm_[node + 1];
-    at.x[n] = at.x[n] + low.x + part * (high.x - low.x);
-    at.y[n] = at.y[n] + low.y + part * (high.y - low.y);
-    at.z[n] = at.z[n] + low.z + part * (high.z - low.z);
+  for (std::size_t first = 0, end = 0; first < at.count; first = end) {
+    const std::size_t node = node_at(at.depth_mm[first] * per_mm_);
+    while (end < at.count && node_at(at.depth_mm[end] * per_mm_) == node) ++end;
+    go_aside(back_mm_[node], back_mm_[node + 1] - back_mm_[node], static_cast<double>(node), per_mm_, first, end,
+             at);
   }
 }
 

@@ -97,7 +97,22 @@ inline bool shows_clutter(const UltrasoundView& view) {
 }
 // Its mean square as it arrives; liver's speckle at the face is 0.
 double clutter_db(const UltrasoundView& view, double depth_mm) noexcept;
-// Lies still in the picture whatever moves behind it: by the view's seed. Beams that stand in air have none.
+// Lies still in the picture whatever moves behind it: by the view's seed, so whoever makes many pictures keeps it.
+// Beams that stand in air have none.
+class Clutter {
+ public:
+  void add(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture);
+
+ private:
+  struct Of {  // what it is made for
+    std::uint64_t seed = 0;
+    int beams = 0, samples = 0;
+    double depth_mm = 0.0, mhz = 0.0;
+    bool operator==(const Of&) const = default;
+  };
+  Of of_;
+  std::vector<float> re_, im_;
+};
 void add_clutter(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, PolarPicture& picture);
 
 // Borders of what the CT tells by voxels without their stairs, in cases of the same law (docs/decisions/0097). What

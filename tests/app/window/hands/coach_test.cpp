@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/fixtures/meshes.h"
+
 namespace seldinger::app {
 namespace {
 
@@ -72,7 +74,21 @@ TEST_F(CoachTest, LeadsFromTheSkinToTheTarget) {
   state.probe.origin_lps_mm.z = 1.5;
   EXPECT_TRUE(has(hint(), "Stop: the picture does not show the tip, which is 1.5 mm off its plane")) << hint();
   state.probe.origin_lps_mm.z = 0.5;
+  EXPECT_TRUE(has(hint(), "47° off square")) << hint();
+  EXPECT_TRUE(has(hint(), "take the probe (Tab)")) << hint();
+  seen_.held = devices::HeldTool::probe;
+  EXPECT_TRUE(has(hint(), "rock it by 10° (right drag to the right, or L)")) << hint();
+  const double rocked = 18.0 * std::numbers::pi / 180.0;  // its beams come from where the needle does
+  state.probe.axial = {std::sin(rocked), std::cos(rocked), 0.0};
+  state.probe.lateral = {std::cos(rocked), -std::sin(rocked), 0.0};
+  seen_.held = devices::HeldTool::needle;
   EXPECT_TRUE(has(hint(), "advance a little")) << hint();
+  scene_.skin_index = cases::MeshIndex(fixtures::box_mesh({-80, 0, -60}, {80, 100, 60}));
+  state.probe.origin_lps_mm.y = -5.0;
+  EXPECT_TRUE(has(hint(), "has lifted off the skin above the tip: press it on: take the probe (Tab)")) << hint();
+  state.probe.origin_lps_mm.y = 5.0;
+  EXPECT_TRUE(has(hint(), "advance a little")) << hint();
+  state.probe.origin_lps_mm.y = 0.0;
   seen_.frame->needle_tip = true;
   EXPECT_TRUE(has(hint(), "Advance: 14.0 mm to the target’s middle")) << hint();
   state.needle.tip_lps_mm = scene_.lesions[0].center_lps_mm + 4.0 * state.needle.direction;
@@ -91,6 +107,20 @@ TEST_F(CoachTest, SaysThatAWayMissesBeforeItIsTooLate) {
   // Was: "the tip is in the target", beside it at its depth.
   seen_.moment.state.needle.tip_lps_mm = {7.0, 29.0, 0.0};
   EXPECT_TRUE(has(hint(), "misses the target’s middle by 7.0 mm")) << hint();
+}
+
+// Beams of a curved face fan out: at its edge they meet a needle squarely that those of a straight one do not.
+TEST_F(CoachTest, TellsHowBeamsOfACurvedFaceMeetTheNeedle) {
+  seen_.press_mm = 2.0;
+  seen_.inserted = seen_.frame->target = true;
+  seen_.inserted_mm = 20.0;
+  cases::State& state = seen_.moment.state;
+  state.needle.direction = glm::normalize(glm::dvec3(-1.0, 0.8, 0.0));  // 39° to the face
+  state.needle.tip_lps_mm = scene_.lesions[0].center_lps_mm - 30.0 * state.needle.direction;
+  EXPECT_TRUE(has(hint(), "39° off square")) << hint();
+  scene_.picture.probe = "C5-2v";
+  EXPECT_TRUE(has(hint(), "advance a little")) << hint();
+  EXPECT_FALSE(has(hint(), "off square")) << hint();
 }
 
 TEST_F(CoachTest, FadesAndIsForDrillsOnly) {

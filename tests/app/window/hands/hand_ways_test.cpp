@@ -153,5 +153,20 @@ TEST_F(HandWaysTest, AProbeIsRotatedAboutItsAxis) {
   }
 }
 
+TEST_F(HandWaysTest, AProbeIsRockedInItsPlane) {
+  for (const double by_rad : {0.2, -0.1}) {
+    const cases::ToolPose probe = any_tool();
+    const glm::dvec3 normal = glm::cross(probe.axis, probe.side);
+    const glm::dvec3 wanted = std::cos(by_rad) * probe.axis + std::sin(by_rad) * glm::cross(normal, probe.axis);
+    const std::string words = rock_words(by_rad);
+    for (const devices::HandIntent& intent :
+         {by_key(words, std::abs(by_rad) / devices::kKeyTurnRadS, {}, HeldTool::probe, probe),
+          by_mouse(words, std::abs(by_rad) / devices::kRadPerPixel, {}, HeldTool::probe, probe)}) {
+      const glm::dvec3 axis = devices::turned(probe.axis, devices::in_space(intent.turn_own_rad, probe));
+      EXPECT_LT(glm::length(axis - wanted), 1e-6) << words;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seldinger::app

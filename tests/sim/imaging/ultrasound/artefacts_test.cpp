@@ -273,6 +273,24 @@ TEST(Clutter, LiesStillIsNotInAirAndOfTheNewestLawAlone) {
   EXPECT_EQ(older.envelope, bare.envelope);
 }
 
+// Kept from picture to picture it is what each picture's own would be, whatever the console is set to meanwhile.
+TEST(Clutter, IsTheSameWhereItIsKept) {
+  const Scene fluid = all_of(TissueClass::fluid);
+  UltrasoundView deeper = straight_view(60.0), other = straight_view(50.0), higher = straight_view(50.0);
+  other.seed = 99;
+  higher.frequency_mhz = 9.0;
+  Clutter kept;
+  std::vector<float> last;
+  for (const UltrasoundView& view : {straight_view(50.0), deeper, other, higher, straight_view(50.0)}) {
+    PolarPicture once = polar_of(fluid, view), again = once;
+    add_clutter(view, {}, once);
+    kept.add(view, {}, again);
+    EXPECT_EQ(again.envelope, once.envelope);
+    EXPECT_NE(again.envelope, last) << "the console shows in it";
+    last = again.envelope;
+  }
+}
+
 // What was published by an earlier law is drawn as it was, behind a cyst and behind lung.
 TEST(Artefacts, AreOfNewerLawsAlone) {
   const Scene s = liver_on_lung();

@@ -1,5 +1,5 @@
 // Colour Doppler against its closed form: the angle's law, where speeds wrap, which way is which colour.
-#include "sim/imaging/ultrasound/colour.h"
+#include "sim/imaging/ultrasound/colour_screen.h"
 
 #include <glm/vec3.hpp>
 #include <numbers>
@@ -224,6 +224,38 @@ TEST(ColourDoppler, IsDrawnWithinItsBoxAndVessel) {
   const auto& table = colour_table();
   EXPECT_GT(table[kColourStill + 60][0], table[kColourStill + 60][2]) << "towards the probe is red";
   EXPECT_GT(table[kColourStill - 60][2], table[kColourStill - 60][0]) << "away is blue";
+  // A box's edge is where a pixel of the box has one beside it that is none: told from the places alone.
+  const ColourBox& box = colour.picture.box;
+  const auto inside = [&](int c, int r) {
+    const auto at = converter.place(c, r);
+    if (!at) return false;
+    const double beam = at->beam - box.grey_beam(box.first_beam, at->depth_mm);
+    return beam >= 0.0 && beam <= box.end_beam - box.first_beam - 1.0 && at->depth_mm >= box.from_mm &&
+           at->depth_mm <= box.to_mm;
+  };
+  int edge = 0;
+  for (int r = 1; r < 399; ++r)
+    for (int c = 1; c < 250; ++c) {
+      const bool is_edge =
+          inside(c, r) && !(inside(c - 1, r) && inside(c + 1, r) && inside(c, r - 1) && inside(c, r + 1));
+      ASSERT_EQ(numbers[static_cast<std::size_t>(300 * r + c)] == kColourEdge, is_edge) << c << ", " << r;
+      edge += is_edge ? 1 : 0;
+    }
+  EXPECT_GT(edge, 500);
+  // Kept from picture to picture, and made anew where the box is another.
+  std::optional<ColourScreen> kept;
+  std::vector<unsigned char> by_kept, anew;
+  for (const double lean_deg : {15.0, 15.0, -10.0, 15.0}) {
+    console.lean_deg = lean_deg;
+    const Colour other = colour_as(around(one), one, console);
+    for (const bool flip : {false, true}) {
+      UltrasoundKnobs knobs;
+      knobs.flip = flip;
+      colour_numbers(kept, converter, knobs, other.picture, by_kept);
+      colour_numbers(converter, knobs, other.picture, anew);
+      EXPECT_EQ(by_kept, anew) << lean_deg;
+    }
+  }
   const std::vector<unsigned char> grey(numbers.size(), 77);
   const std::vector<unsigned char> rgb = in_colour(grey, numbers);
   EXPECT_EQ(rgb[0], 77);

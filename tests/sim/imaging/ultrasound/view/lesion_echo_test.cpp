@@ -1,8 +1,12 @@
 // What a lesion of a kind is to sound in the tissue it lies in, drawn by the picture or written into the volume.
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <memory>
 
+#include "sim/base/rng.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/fan.h"
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
@@ -106,6 +110,60 @@ TEST(LesionEcho, ARimLiesWithinTheLesion) {
   EXPECT_NEAR(level(12.0 - look.rim_mm + 0.1), look.rim_db, 1e-3);
   EXPECT_NEAR(level(11.9), look.rim_db, 1e-3);
   EXPECT_NEAR(level(12.1), 0.0, 1e-3);
+}
+
+// Speckle of a part of a picture asks its lesions only where one can be: no place within reach of it may lie in one
+// that was left out, whatever part it is.
+TEST(LesionEcho, NoneIsLeftOutThatLiesNear) {
+  const Scene s = all_of(TissueClass::liver);
+  Inserted inserted;
+  base::Rng rng(7);
+  const auto any = [&](double half_mm) {
+    return glm::dvec3(0.0, 60.0, 0.0) +
+           half_mm * (2.0 * glm::dvec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.0);
+  };
+  for (const double radius_mm : {2.0, 6.0, 12.0}) {
+    inserted.lesions.push_back(in_the_middle(cases::LesionKind::hcc, radius_mm));
+    inserted.lesions.back().center_lps_mm = any(15.0);
+  }
+  const TissueAt tissue_at(s.tissue(), inserted);
+  int near = 0, left_out = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 middle = any(25.0);
+    const double reach_mm = 8.0 * rng.uniform();
+    const bool asked = tissue_at.has_lesions_near(middle, reach_mm);
+    bool met = false;
+    for (int j = 0; j < 50; ++j) {
+      const glm::dvec3 way = any(1.0) - glm::dvec3(0.0, 60.0, 0.0);
+      met |= tissue_at.speckle_of_lesion(middle + reach_mm * way / std::max(1.0, glm::length(way))).has_value();
+    }
+    if (met) {
+      EXPECT_TRUE(asked);
+    }
+    ++(asked ? near : left_out);
+  }
+  EXPECT_GT(near, 200);
+  EXPECT_GT(left_out, 200);
+}
+
+// A cyst of a few mm is black wherever it lies between the parts that a picture is made of.
+TEST(LesionEcho, ASmallCystIsBlackAcrossThePicturesParts) {
+  const Scene s = all_of(TissueClass::liver);
+  for (const UltrasoundView& view : {curved_view(100.0), straight_view(50.0)}) {
+    const PolarPicture without = polar_of(s, view);
+    for (int i = 0; i < 12; ++i) {
+      const double beam = 30.0 + 5.7 * i, depth_mm = (0.25 + 0.035 * i) * view.depth_mm;
+      Inserted inserted;
+      inserted.lesions = {in_the_middle(cases::LesionKind::cyst, 5.0)};
+      inserted.lesions[0].center_lps_mm = point_of(view, beam, depth_mm);
+      inserted.lesions[0].echo = lesion_echo(s.tissue(), inserted.lesions[0]);
+      const PolarPicture with = polar_of(s, view, inserted);
+      const int b = static_cast<int>(beam), first = sample_at(view, depth_mm - 1.0),
+                end = sample_at(view, depth_mm + 1.0);
+      EXPECT_LT(level_db(with, b - 1, b + 2, first, end), level_db(without, b - 1, b + 2, first, end) - 12.0)
+          << beam << " " << depth_mm;
+    }
+  }
 }
 
 // Which of them have one is the table's to say; by the older laws none has.

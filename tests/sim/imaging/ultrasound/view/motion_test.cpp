@@ -289,11 +289,14 @@ TEST(UltrasoundMotion, AFanThatIsAskedHasTheBitsOfAWholeOne) {
       ++all;
       return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
     });
-    const RestFan fan = RestFan::when_asked(
-        view, 5.0, 0.0, [&](std::span<const glm::dvec3> at_lps_mm, std::span<glm::dvec3> rest_lps_mm) {
-          asked += static_cast<int>(at_lps_mm.size());
-          tissue::rest_of(displacement, at_lps_mm, 4, rest_lps_mm);
-        });
+    const auto that_counts = [&](int& count) {
+      return RestFan::when_asked(view, 5.0, 0.0,
+                                 [&](std::span<const glm::dvec3> at_lps_mm, std::span<glm::dvec3> rest_lps_mm) {
+                                   count += static_cast<int>(at_lps_mm.size());
+                                   tissue::rest_of(displacement, at_lps_mm, 4, rest_lps_mm);
+                                 });
+    };
+    const RestFan fan = that_counts(asked);
     EXPECT_EQ(asked, 0);
     for (const double beam : {-0.4, 31.0, 33.7, view.beams - 0.6})
       for (const double depth_mm : {0.0, 2.9, 0.31 * view.depth_mm, view.depth_mm}) {
@@ -307,13 +310,24 @@ TEST(UltrasoundMotion, AFanThatIsAskedHasTheBitsOfAWholeOne) {
     int before = asked;
     static_cast<void>(fan.path(31.0));
     EXPECT_EQ(asked, before) << "nothing is found twice";
-    fan.ask(50.0, 60.0, 20.0, 25.0);
+    const RestFan::Box boxes[] = {{50.0, 60.0, 20.0, 25.0}, {55.0, 70.0, 22.0, 30.0}};  // that overlap
+    fan.ask(boxes);
     EXPECT_GT(asked, before);
     before = asked;
     for (const double beam : {50.0, 57.3, 60.0})
       for (const double depth_mm : {20.0, 23.4, 25.0})
         EXPECT_EQ(fan.rest_of(beam, depth_mm), whole.rest_of(beam, depth_mm));
     EXPECT_EQ(asked, before) << "all that is between was asked for";
+    for (const double beam : {55.0, 63.0, 70.0})
+      EXPECT_EQ(fan.rest_of(beam, 29.0), whole.rest_of(beam, 29.0)) << "of the other box, too";
+    fan.ask(boxes);
+    EXPECT_EQ(asked, before) << "and nothing is asked for twice";
+    // Nor in one question: the boxes overlap.
+    int one_by_one = 0, at_once = 0;
+    const RestFan first = that_counts(one_by_one), second = that_counts(at_once);
+    for (const RestFan::Box& box : boxes) first.ask({&box, 1});
+    second.ask(boxes);
+    EXPECT_EQ(at_once, one_by_one);
   }
 }
 
