@@ -189,7 +189,8 @@ void Desk::tell(const std::string& screen) {
   TraceLine line;
   line.t_s = now_s - opened_s_;
   line.screen = screen;
-  line.frames_s = frames_ / std::max(1e-3, passed_s);
+  line.frames = frames_;
+  line.frames_s = (frames_ - frames_told_) / std::max(1e-3, passed_s);
   if (screen == "attempt") {
     attempt_.tell(line);
     line.pictures_s /= std::max(1e-3, passed_s);
@@ -207,7 +208,7 @@ void Desk::tell(const std::string& screen) {
   line.items = noted_items();
   trace_.write(line);
   told_s_ = now_s;
-  frames_ = 0;
+  frames_told_ = frames_;
 }
 
 std::string Desk::keep(const std::string& name, const std::vector<unsigned char>& rgb, int width_px,

@@ -61,9 +61,9 @@ class Desk {
   ScreenWords& words_;
   double words_s_ = 0.0;  // when they were gathered last
   double opened_s_, told_s_, due_s_ = 0.0, stirred_s_ = 0.0,
-                             between_s_;                        // stirred: when somebody did something last
-  int frames_ = 0, keys_ = 0, keys_shown_ = 0, since_key_ = 0;  // since_key_: frames
-  std::string told_, notice_;                                   // told: the screen that was up
+                             between_s_;  // stirred: when somebody did something last
+  int frames_ = 0, frames_told_ = 0, keys_ = 0, keys_shown_ = 0, since_key_ = 0;  // since_key_: frames
+  std::string told_, notice_;                                                     // told: the screen that was up
   double notice_until_s_ = 0.0;
   Speaker::State sound_ = Speaker::State::unasked;
 };

@@ -69,7 +69,7 @@ TEST(Long, ExpertsHitAndEveryAttemptReplaysOnEveryTrunk) {
   }
 }
 
-// All eight, with the real CTs: what tests/e2e/simulate_test does for those of built-in patients.
+// All eight, with the real CTs: what tests/e2e/simulated/pass_rates_test does for those of built-in patients.
 TEST(Long, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
   SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("long_graded");

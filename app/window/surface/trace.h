@@ -36,6 +36,7 @@ struct TraceLine {
   // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief", "answer", "watch", "editor",
   // "devices"
   std::string screen;
+  int frames = 0;                                                                  // since the window opened
   double frames_s = 0.0;                                                           // the window's
   double pictures_s = 0.0;                                                         // the guidance's
   std::string method;                                                              // how these are made

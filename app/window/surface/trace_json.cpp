@@ -6,11 +6,9 @@
 namespace seldinger::app {
 
 std::string json_of(const TraceLine& line) {
-  nlohmann::ordered_json json = {{"t_s", line.t_s},
-                                 {"screen", line.screen},
-                                 {"frames_s", line.frames_s},
-                                 {"keys", line.keys},
-                                 {"window_px", {line.width_px, line.height_px}}};
+  nlohmann::ordered_json json = {{"t_s", line.t_s},       {"screen", line.screen},
+                                 {"frames", line.frames}, {"frames_s", line.frames_s},
+                                 {"keys", line.keys},     {"window_px", {line.width_px, line.height_px}}};
   if (!line.held.empty())
     json.update({{"pictures_s", line.pictures_s},
                  {"method", line.method},
