@@ -37,8 +37,9 @@ base::Result<cases::Lesion> lesion_in(const cases::Case& scene, const std::optio
   if (organs) rule.organs = &*organs;
   rule.classes = scene.classes;
   if (modality == cases::Modality::ultrasound) {
-    rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
-      return session::UltrasoundSight(scene).looks_from(plan, target);
+    rule.looks_from = [&](const assessment::PuncturePlan& plan, const assessment::WorthTaking& worth,
+                          const cases::Lesion& target) {
+      return session::UltrasoundSight(scene).looks_from(plan, worth, target);
     };
   }
   const auto site = assessment::find_lesion_site(scene.volume, scene.skin_index, rule);

@@ -153,7 +153,9 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
     site.lesion = {candidate.center_lps_mm, rule.radius_mm,
                    rule.lesion_hu.value_or(std::round(candidate.mean_hu + rule.contrast_hu))};
     if (rule.looks_from)
-      limits.looks_from = [&](const PuncturePlan& plan) { return rule.looks_from(plan, site.lesion); };
+      limits.looks_from = [&](const PuncturePlan& plan, const WorthTaking& worth) {
+        return rule.looks_from(plan, worth, site.lesion);
+      };
     const auto plan = plan_puncture(volume, skin, candidate.center_lps_mm, limits);
     if (!plan) continue;
     site.plan = *plan;

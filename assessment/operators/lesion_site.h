@@ -25,7 +25,8 @@ struct LesionRule {
   const volume::Organs* organs = nullptr;
   std::span<const volume::TissueClass> classes{};  // as PathLimits'
   // As PathLimits::looks_from, of a plan to this lesion.
-  std::function<std::optional<ProbeView>(const PuncturePlan&, const cases::Lesion&)> looks_from{};
+  std::function<std::optional<ProbeView>(const PuncturePlan&, const WorthTaking&, const cases::Lesion&)>
+      looks_from{};
 };
 
 // The rule of a case. Under xray soft tissue shows no soft lesion: there it is one filled with contrast agent, on a

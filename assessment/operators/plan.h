@@ -48,6 +48,12 @@ struct ProbeView {
   double shadow_db = 0.0;          // ≥ 0: what ribs and gas above take from the target's echoes
 };
 
+// A picture's answer to where a plan's probe stands; nothing: the target is not seen from there, the probe is in
+// the way, or the place is not worth taking, which may be asked of a view whose tip shows from anywhere (the
+// sooner, the better) to save looking further. Empty: every one is.
+using WorthTaking = std::function<bool(const ProbeView&)>;
+using LooksFrom = std::function<std::optional<ProbeView>(const PuncturePlan&, const WorthTaking&)>;
+
 struct PathLimits {
   double min_depth_mm = 10.0, max_depth_mm = 130.0;
   double clearance_mm = 4.0;  // around the path
@@ -57,9 +63,7 @@ struct PathLimits {
   cases::PatientPosition position = cases::PatientPosition::supine;
   bool needs_probe = true;                               // target and way must be seen from a place on the skin …
   cases::Approach approach = cases::Approach::in_plane;  // … so
-  // Told by whoever makes pictures; nothing: the target is not seen from there, or the probe is in the way. Left
-  // empty, every place on the skin will do.
-  std::function<std::optional<ProbeView>(const PuncturePlan&)> looks_from{};
+  LooksFrom looks_from{};  // told by whoever makes pictures; left empty, every place on the skin will do
   // What the way, and what a core needle is thrown through behind the target, keeps clear of (major and critical),
   // and what it must lead through for must_cross_mm. Outlive the plan's making.
   std::span<const cases::Structure> structures{};

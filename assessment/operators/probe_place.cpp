@@ -161,7 +161,8 @@ class PlaceJudge {
     plan_.approach = limits.approach;
     if (across_) vessel_ = vessel_along(limits.structures, plan.target_lps_mm);
   }
-  std::optional<Judged> judge(const Place& place) const {
+  // Nothing where there is no such place, or none better than one that is known.
+  std::optional<Judged> judge(const Place& place, const std::optional<Judged>& known) const {
     const auto stand = stand_at(skin_, limits_, plan_, place);
     if (!stand) return std::nullopt;
     Judged judged{place, plan_};
@@ -180,9 +181,16 @@ class PlaceJudge {
       judged.score = 1.0 / (stand->distance_mm + std::abs(apart_mm - 45.0));
       return judged;
     }
-    const auto view = limits_.looks_from(held);
+    const auto score_of = [&](const ProbeView& view) {
+      return -price(limits_, held, view, stand->distance_mm, vessel_);
+    };
+    const auto is_better = [&](const ProbeView& view) { return !known || score_of(view) > known->score; };
+    ProbeView ideal;  // whatever is seen from there, it is no better
+    ideal.needle_mm = held.depth_mm;
+    if (!is_better(ideal)) return std::nullopt;
+    const auto view = limits_.looks_from(held, is_better);
     if (!view) return std::nullopt;
-    judged.score = -price(limits_, held, *view, stand->distance_mm, vessel_);
+    judged.score = score_of(*view);
     held.probe = view->probe;
     held.probe_first = view->probe_first;
     held.picture = view->picture;
@@ -196,7 +204,8 @@ class PlaceJudge {
       std::optional<Judged> best_here;
       for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += kAzimuthStepDeg)
         for (const Place& by : rocks())
-          if (auto judged = judge({azimuth_deg, tilt_deg, by.rocked_deg, by.rocked_first_deg, by.pressed_mm});
+          if (auto judged =
+                  judge({azimuth_deg, tilt_deg, by.rocked_deg, by.rocked_first_deg, by.pressed_mm}, best_here);
               judged && (!best_here || judged->score > best_here->score))
             best_here = std::move(judged);
       if (best_here) best.push_back(std::move(*best_here));
@@ -205,19 +214,20 @@ class PlaceJudge {
     return best;
   }
   // The best about it.
-  Judged climbed(Judged nearest) const {
+  Judged climbed(Judged from) const {
+    std::optional<Judged> nearest = std::move(from);
     for (double step = limits_.looks_from ? 0.5 : 0.0; step > 0.03;) {
       bool better = false;
       for (const double sign : {-1.0, 1.0})
         for (int which = 0; which < (across_ ? 2 : 6); ++which) {
-          auto judged = judge(moved(nearest.place, which, sign * step));
-          if (!judged || judged->score <= nearest.score) continue;
-          nearest = std::move(*judged);
+          auto judged = judge(moved(nearest->place, which, sign * step), nearest);
+          if (!judged || judged->score <= nearest->score) continue;
+          nearest = std::move(judged);
           better = true;
         }
       if (!better) step /= 2.0;
     }
-    return nearest;
+    return *nearest;
   }
 
  private:

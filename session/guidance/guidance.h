@@ -104,8 +104,7 @@ struct GuidanceKind {
   bool probe_guides;   // else it is laid aside
   std::unique_ptr<Guidance> (*make)(const cases::Case& scene);
   // PathLimits::looks_from at this scene, which must outlive it; null: any place on the skin will do.
-  std::function<std::optional<assessment::ProbeView>(const assessment::PuncturePlan&)> (*looks_from)(
-      const cases::Case& scene);
+  assessment::LooksFrom (*looks_from)(const cases::Case& scene);
 };
 const GuidanceKind& guidance_kind(cases::Modality modality) noexcept;
 

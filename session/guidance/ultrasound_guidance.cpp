@@ -39,10 +39,9 @@ std::unique_ptr<Guidance> make_ultrasound_guidance(const cases::Case& scene) {
   return std::make_unique<UltrasoundGuidance>(scene);
 }
 
-std::function<std::optional<assessment::ProbeView>(const assessment::PuncturePlan&)> looks_from(
-    const cases::Case& scene) {
-  return [&scene](const assessment::PuncturePlan& plan) {
-    return UltrasoundSight(scene).looks_from(plan, scene.lesions.front());
+assessment::LooksFrom looks_from(const cases::Case& scene) {
+  return [&scene](const assessment::PuncturePlan& plan, const assessment::WorthTaking& worth) {
+    return UltrasoundSight(scene).looks_from(plan, worth, scene.lesions.front());
   };
 }
 

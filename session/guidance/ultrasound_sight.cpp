@@ -96,6 +96,16 @@ cases::Picture picture_by(const imaging::Probe& probe, double target_below_skin_
   return picture;
 }
 
+// Where a tip is asked for, from the target at that depth to the skin.
+std::vector<double> way_back_mm(double depth_mm) {
+  std::vector<double> way_mm{depth_mm};
+  while (way_mm.back() > 0.0) {
+    const double at_mm = way_mm.back();
+    way_mm.push_back(std::max(0.0, at_mm - (at_mm > kNearSkinMm ? kWayStepMm : kNearSkinStepMm)));
+  }
+  return way_mm;
+}
+
 }  // namespace
 
 cases::Picture ultrasound_picture(double target_below_skin_mm) {
@@ -154,6 +164,7 @@ imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe, co
 }
 
 std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessment::PuncturePlan& plan,
+                                                                 const assessment::WorthTaking& worth,
                                                                  const cases::Lesion& target) const {
   const cases::ToolPose& touching = plan.probe;
   const cases::Picture picture =
@@ -178,26 +189,37 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   if (plan.approach == cases::Approach::in_plane && pressed.probe_first.axis != pressed.probe.axis &&
       !see(held(unheld, pressed.probe_first), {std::nullopt, {target}}, {}).visible.target)
     return std::nullopt;
-  const auto tip_shows = [&](double inserted_mm) {
-    const imaging::UltrasoundView there = held(unheld, assessment::probe_over(pressed, inserted_mm));
-    const imaging::Inserted inserted{needle(inserted_mm), {}};
-    if (plan.approach == cases::Approach::out_of_plane) return see(there, inserted, {}).visible.needle_tip;
-    const std::vector<float> beside = element_depths(scene_.skin_index, there, kContactStride);
-    return imaging::needle_level(tissue_, there, inserted, beside, 0.0).stands_out();
-  };
-  double shows_from_mm = plan.depth_mm;
-  for (double asked_mm = shows_from_mm; asked_mm > 0.0 && shows_from_mm == asked_mm;) {
-    asked_mm = std::max(0.0, asked_mm - (asked_mm > kNearSkinMm ? kWayStepMm : kNearSkinStepMm));
-    if (tip_shows(asked_mm)) shows_from_mm = asked_mm;
-  }
-  const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}}, depths);
   assessment::ProbeView seen_from;
   seen_from.probe = pressed.probe;
   seen_from.probe_first = pressed.probe_first;
   seen_from.picture = picture;
-  seen_from.tip_shows_from_mm = shows_from_mm;
   seen_from.needle_mm = seen.needle_length_mm;
+  const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}}, depths);
   seen_from.shadow_db = std::max(0.0, -level.transmission_db);
+
+  const auto tip_shows = [&](double inserted_mm) {
+    const imaging::UltrasoundView there = held(unheld, assessment::probe_over(pressed, inserted_mm));
+    const imaging::Inserted inserted{needle(inserted_mm), {}};
+    if (plan.approach == cases::Approach::out_of_plane) return see(there, inserted, {}).visible.needle_tip;
+    const bool still =
+        there.origin_lps_mm == view.origin_lps_mm && there.axial == view.axial && there.lateral == view.lateral;
+    return imaging::needle_level(tissue_, there, inserted,
+                                 still ? depths : element_depths(scene_.skin_index, there, kContactStride), 0.0)
+        .stands_out();
+  };
+  // From the target back to the skin; first how far back it has to be seen for the place to be worth taking, where
+  // it is likeliest not to be.
+  const std::vector<double> way_mm = way_back_mm(plan.depth_mm);
+  const auto is_worth = [&](double from_mm) {
+    seen_from.tip_shows_from_mm = from_mm;
+    return !worth || worth(seen_from);
+  };
+  const auto needed = std::find_if(way_mm.begin(), way_mm.end(), is_worth);
+  if (needed == way_mm.end()) return std::nullopt;
+  for (auto at = needed; at != way_mm.begin(); --at)
+    if (!tip_shows(*at)) return std::nullopt;
+  const auto unseen = std::find_if_not(needed + 1, way_mm.end(), tip_shows);
+  seen_from.tip_shows_from_mm = *(unseen - 1);
   return seen_from;
 }
 

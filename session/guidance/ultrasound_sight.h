@@ -62,6 +62,7 @@ class UltrasoundSight {
 
   // PathLimits::looks_from, by the picture that ultrasound_picture chooses there, with this target.
   std::optional<assessment::ProbeView> looks_from(const assessment::PuncturePlan& plan,
+                                                  const assessment::WorthTaking& worth,
                                                   const cases::Lesion& target) const;
 
   // In the scene's picture as the console stands, with its lesions, of tissue that is where the displacement puts

@@ -98,7 +98,7 @@ TEST(PlanPuncture, TakesTheProbesPlaceFromWhoLooks) {
   int asked = 0;
   // Worth the more, the nearer to a place; held 7 mm deeper.
   const glm::dvec3 liked(40, -80, 10);
-  limits.looks_from = [&](const PuncturePlan& plan) -> std::optional<ProbeView> {
+  limits.looks_from = [&](const PuncturePlan& plan, const WorthTaking& worth) -> std::optional<ProbeView> {
     ++asked;
     if (plan.probe.position_lps_mm.x < 0.0) return std::nullopt;
     ProbeView view;
@@ -107,6 +107,7 @@ TEST(PlanPuncture, TakesTheProbesPlaceFromWhoLooks) {
     view.picture.probe = "some";
     view.needle_mm = plan.depth_mm - 10.0 * glm::length(plan.probe.position_lps_mm - liked);
     view.tip_shows_from_mm = 12.0;
+    if (!worth(view)) return std::nullopt;
     return view;
   };
   const auto plan = plan_puncture(ball({}), skin(), {0, -50, 0}, limits);
@@ -118,7 +119,7 @@ TEST(PlanPuncture, TakesTheProbesPlaceFromWhoLooks) {
   EXPECT_EQ(plan->tip_shows_from_mm, 12.0);
   ASSERT_TRUE(plan->picture.has_value());
   EXPECT_EQ(plan->picture->probe, "some");
-  limits.looks_from = [](const PuncturePlan&) { return std::optional<ProbeView>(); };
+  limits.looks_from = [](const PuncturePlan&, const WorthTaking&) { return std::optional<ProbeView>(); };
   EXPECT_EQ(plan_puncture(ball({}), skin(), {0, -50, 0}, limits).error().code, "no_path");
 }
 
@@ -193,7 +194,8 @@ TEST(PlanPuncture, TellsWhereTheOrganBegins) {
 TEST(FindLesionSite, UnderUltrasoundItIsACystThatIsSeen) {
   LesionRule rule = lesion_rule(cases::Modality::ultrasound, cases::PatientPosition::supine);
   glm::dvec3 refused(0.0);
-  rule.looks_from = [&](const PuncturePlan& plan, const cases::Lesion& target) -> std::optional<ProbeView> {
+  rule.looks_from = [&](const PuncturePlan& plan, const WorthTaking&,
+                        const cases::Lesion& target) -> std::optional<ProbeView> {
     EXPECT_EQ(target.hu, 5.0);
     if (refused == glm::dvec3(0.0)) refused = target.center_lps_mm;
     if (target.center_lps_mm == refused) return std::nullopt;

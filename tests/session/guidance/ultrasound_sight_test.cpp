@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "app/attempts/this_program.h"
 #include "assessment/operators/plan.h"
@@ -48,12 +49,12 @@ const cases::Case& still_ball() {
   return kBall;
 }
 
-base::Result<assessment::PuncturePlan> plan_of(const cases::Case& scene) {
+base::Result<assessment::PuncturePlan> plan_of(const cases::Case& scene, bool looks_everywhere = false) {
   const UltrasoundSight sight(scene);
   assessment::PathLimits limits =
       assessment::path_limits(cases::Modality::ultrasound, cases::PatientPosition::supine);
-  limits.looks_from = [&](const assessment::PuncturePlan& plan) {
-    return sight.looks_from(plan, scene.lesions[0]);
+  limits.looks_from = [&](const assessment::PuncturePlan& plan, const assessment::WorthTaking& worth) {
+    return sight.looks_from(plan, looks_everywhere ? nullptr : worth, scene.lesions[0]);
   };
   return assessment::plan_puncture(scene.volume, scene.skin_index, scene.lesions[0].center_lps_mm, limits);
 }
@@ -165,6 +166,23 @@ TEST(UltrasoundPlan, SeesTargetAndTipFromItsProbe) {
   EXPECT_NEAR(glm::dot(plan.probe.axis, plan.probe.side), 0.0, 1e-9);
 }
 
+// What is left out because it could not be better changes no plan, to the bit.
+TEST(UltrasoundPlan, IsThatOfLookingEverywhere) {
+  const cases::Case scene = make_ball(14.0);
+  const auto plan = plan_of(scene), everywhere = plan_of(scene, true);
+  ASSERT_TRUE(plan.has_value() && everywhere.has_value());
+  EXPECT_EQ(plan->entry_lps_mm, everywhere->entry_lps_mm);
+  for (const auto& [a, b] :
+       {std::pair{plan->probe, everywhere->probe}, {plan->probe_first, everywhere->probe_first}}) {
+    EXPECT_EQ(a.position_lps_mm, b.position_lps_mm);
+    EXPECT_EQ(a.axis, b.axis);
+    EXPECT_EQ(a.side, b.side);
+  }
+  EXPECT_EQ(plan->pressed_mm, everywhere->pressed_mm);
+  EXPECT_EQ(plan->tip_shows_from_mm, everywhere->tip_shows_from_mm);
+  EXPECT_EQ(plan->picture->depth_mm, everywhere->picture->depth_mm);
+}
+
 TEST(UltrasoundPlan, LooksPastAPlateOfBone) {
   const cases::Case screened = make_ball(14.0);
   ASSERT_GT(volume::count_classes(screened.classes)[static_cast<std::size_t>(volume::TissueClass::bone)], 50U);
@@ -175,8 +193,8 @@ TEST(UltrasoundPlan, LooksPastAPlateOfBone) {
   above.depth_mm = 60.0;
   above.entry_lps_mm = above.target_lps_mm - above.depth_mm * above.direction;
   above.probe = above.probe_first = {{0, -kBallMm, 0}, {0, 1, 0}, {1, 0, 0}};
-  EXPECT_FALSE(UltrasoundSight(screened).looks_from(above, screened.lesions[0]).has_value());
-  EXPECT_TRUE(UltrasoundSight(still_ball()).looks_from(above, still_ball().lesions[0]).has_value());
+  EXPECT_FALSE(UltrasoundSight(screened).looks_from(above, {}, screened.lesions[0]).has_value());
+  EXPECT_TRUE(UltrasoundSight(still_ball()).looks_from(above, {}, still_ball().lesions[0]).has_value());
   const auto plan = plan_of(screened);
   ASSERT_TRUE(plan.has_value()) << "from the side it is";
   EXPECT_LT(glm::dot(plan->probe.axis, glm::dvec3(0, 1, 0)), 0.95);
