@@ -8,6 +8,7 @@
 #include "app/cli/command.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/grading/dependability.h"
+#include "reports/words/case_words.h"
 #include "reports/words/dependability_words.h"
 
 namespace seldinger::app {
@@ -46,18 +47,17 @@ int run_case_show(const Arguments& arguments) {
   }
   const casedb::CaseRow& row = parts->row;
   std::printf(
-      "case     %s\ntitle    %s\nstate    %s, version %d%s\nguidance %s, %s, %s %s%s\nvoxels   %d x %d x %d, "
+      "case     %s\ntitle    %s\nstate    %s, version %d%s\nguidance %s\nvoxels   %d x %d x %d, "
       "%.4g x %.4g x %.4g mm\nHU       %d to %d\n",
       row.case_id.c_str(), row.title.c_str(), casedb::name_of(row.state).c_str(), row.version,
-      row.own_cohort_only ? ", unreviewed, own cohort only" : "", casedb::name_of(row.modality).c_str(),
-      casedb::name_of(row.approach).c_str(), casedb::name_of(row.subject).c_str(),
-      casedb::name_of(row.position).c_str(), row.probe_is_chosen ? ", the trainee chooses the probe" : "",
+      row.own_cohort_only ? ", unreviewed, own cohort only" : "", reports::guidance_text(row).c_str(),
       row.size_voxels.x, row.size_voxels.y, row.size_voxels.z, row.spacing_mm.x, row.spacing_mm.y, row.spacing_mm.z,
       row.hu_min, row.hu_max);
   const cases::Instrument& needle = row.instrument;
   std::printf("needle   %s, %.0f mm long, %.2f mm across\n", casedb::name_of(needle.kind).c_str(), needle.length_mm,
               2.0 * needle.radius_mm);
-  if (row.clinic.defer) std::puts("decision defer");
+  for (const reports::SettingFact& one : reports::setting_facts(row))
+    std::printf("setting  %s: %s\n", one.words, one.value.c_str());
   for (const auto& [name, value] : row.attributes) std::printf("%s: %s\n", name.c_str(), value.c_str());
   for (const base::Problem& warning : row.warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());

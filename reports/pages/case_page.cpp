@@ -1,7 +1,7 @@
 #include "reports/pages/case_page.h"
 
-#include "casedb/cases/setting_table.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/case_words.h"
 #include "reports/words/dependability_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
@@ -24,39 +24,12 @@ std::string state_text(const casedb::CaseRow& row) {
          (row.own_cohort_only ? ", unreviewed: own cohort only" : "");
 }
 
-std::string guidance_text(const casedb::CaseRow& row) {
-  std::string text = casedb::name_of(row.modality) + ", ";
-  if (row.modality != cases::Modality::xray) text += words(casedb::name_of(row.approach)) + ", ";
-  text += row.subject == cases::Subject::phantom ? "phantom" : "patient " + words(casedb::name_of(row.position));
-  for (const cases::Modality one : row.further_modalities) text += ", also " + casedb::name_of(one);
-  return text;
-}
-
 std::string lesion_text(const casedb::LesionRow& lesion) {
   const cases::LesionForm& form = lesion.form;
   return std::string(cases::about(form.kind).words) + ", " +
          std::string(base::name_of(cases::kLesionOutlineNames, form.outline)) + ", " +
          reports::lesion_text(lesion.lesion) + ", " + (form.adds ? "tissue plus " : "") + number_text(form.hu, 0) +
          " HU";
-}
-
-// Empty: there is none. What is composed has words of its own above.
-std::string setting_text(const casedb::SettingRow& row, const casedb::CaseSetting& setting) {
-  using namespace casedb;
-  return std::visit(OfKind{[&](const NumberField& one) { return number_text(one.get(setting), row.page.digits); },
-                           [&](const MaybeNumberField& one) {
-                             const auto value = one.get(setting);
-                             return value ? number_text(*value, row.page.digits) : std::string();
-                           },
-                           [&](const MaybeWholeField& one) {
-                             const auto value = one.get(setting);
-                             return value ? std::to_string(*value) : std::string();
-                           },
-                           [&](const TextField& one) { return one.get(setting); },
-                           [&](const ChoiceField& one) { return words(std::string(one.get(setting))); },
-                           [&](const SwitchField& one) { return std::string(one.get(setting) ? one.yes : one.no); },
-                           [](const ComposedField&) { return std::string(); }},
-                    row.field);
 }
 
 void add_table(Html& html, std::string_view caption) {
@@ -79,8 +52,7 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   add_fact(html, "Guidance", guidance_text(row));
   add_fact(html, "Needle",
            instrument_text(row.instrument) + ", " + number_text(row.instrument.length_mm, 0) + " mm");
-  for (const casedb::SettingRow* one : casedb::shown_rows(&casedb::SettingRow::page))
-    add_fact(html, one->page.words, setting_text(*one, row));
+  for (const SettingFact& one : setting_facts(row)) add_fact(html, one.words, one.value);
   for (const casedb::LesionRow& lesion : parts.lesions) add_fact(html, "Lesion", lesion_text(lesion));
   end_table(html);
 
