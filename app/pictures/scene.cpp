@@ -83,9 +83,9 @@ base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& li
   return volume;
 }
 
-bool shows_portal_walls(const Scene& scene) noexcept {
+cases::SightLaw law_of_tissue(const Scene& scene) noexcept {
   const auto* view = scene.view ? std::get_if<UltrasoundSceneView>(&*scene.view) : nullptr;
-  return view == nullptr || imaging::draws_portal_walls(view->view.sight_law);
+  return view == nullptr ? cases::kNewestSightLaw : view->view.sight_law;
 }
 
 base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library) {
@@ -99,8 +99,10 @@ base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& vo
   }
   SceneTissue tissue{std::move(*classes), {}};
   tissue.echogenicity = imaging::echogenicity(volume, tissue.classes);
-  imaging::show_organs(volume, tissue.classes, tissue.echogenicity);
-  if (shows_portal_walls(scene))
+  // As session/case/case_build.cpp has it.
+  if (law_of_tissue(scene) != cases::SightLaw::half_slice)
+    imaging::show_organs(volume, tissue.classes, tissue.echogenicity);
+  if (imaging::draws_portal_walls(law_of_tissue(scene)))
     imaging::show_portal_walls(volume, tissue.classes, portal.voxels(), tissue.echogenicity);
   return tissue;
 }

@@ -92,12 +92,13 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
 base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes);
 
 // What each voxel of the scene's volume is: as what is drawn there says, by the labels of a case or of analytic
-// shapes, elsewhere by HU. And how bright by ultrasound: as an attempt of the newest law would show it.
+// shapes, elsewhere by HU. And how bright by ultrasound: as an attempt of its law would show it.
 struct SceneTissue {
   std::vector<volume::TissueClass> classes;
   std::vector<std::uint8_t> echogenicity;
 };
-bool shows_portal_walls(const Scene& scene) noexcept;  // by its view's law of sight
+cases::SightLaw law_of_tissue(
+    const Scene& scene) noexcept;  // its view's, by which organs and walls of veins are shown
 base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library);
 
 // The scene's volume, with what is drawn into it. A case needs `library`. Refused as import refuses; `no_library`.

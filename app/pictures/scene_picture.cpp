@@ -281,7 +281,7 @@ base::Result<ScenePainter> ScenePainter::of(const Scene& scene, const std::strin
 }
 
 base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
-  if (tissue_ && tissue_->portal_walls == shows_portal_walls(scene)) return {};
+  if (tissue_ && tissue_->law == law_of_tissue(scene)) return {};
   auto found = tissue_of(scene, volume_, library_);
   if (!found) return found.error();
   auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
@@ -299,7 +299,7 @@ base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
   }
   tissue_ = Tissue{std::move(found->classes), std::move(found->echogenicity),
                    std::move(index),          trunk,
-                   shows_portal_walls(scene), wall};
+                   law_of_tissue(scene),      wall};
   return {};
 }
 

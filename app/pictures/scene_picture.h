@@ -48,7 +48,7 @@ class ScenePainter {
     std::vector<std::uint8_t> echogenicity;
     cases::MeshIndex skin;
     std::optional<tissue::BreathRegion> trunk;  // nothing without a body
-    bool portal_walls;
+    cases::SightLaw law;
     std::optional<tissue::CavityWall> wall;  // where it is told
   };
   ScenePainter(volume::Volume volume, std::string library)

@@ -21,9 +21,9 @@ namespace seldinger::assessment {
   ": with a CT's contrast medium as bone under X-rays, as cases of the law clutter and before still have it " \
   "(decision 0098)."
 #define SELDINGER_AT_ANY_TILT                                                                                     \
-  ": with a tip that shows at any tilt but the steepest, as cases of the law material and before still have it; " \
-  "in "                                                                                                           \
-  "those of clutter and before also without portal walls and lesions' texture (decisions 0100, 0102, 0106)."
+  ": with a tip that shows at any tilt but the steepest, as cases of the law material and before still have it, " \
+  "and with sharp margins of lesions; in those of clutter and before also without portal walls and lesions' "     \
+  "texture (decisions 0100, 0102, 0106, 0107)."
 #define SELDINGER_BY_ECHO \
   ": without what is scattered under X-rays, as cases of the law echo still have it (decision 0082)."
 

@@ -49,6 +49,12 @@ SHARED float us_texture_log(uint key, float grains_per_mm, float log_sd, float x
   return log_sd * (root_3 * noise.x / noise.z - log_sd);
 }
 
+// Amplitude of a lesion's speckle where `share` of the mean square is its own and the rest that of what lies about
+// it.
+SHARED float us_margin_amplitude(float own, float about, float share) {
+  return sqrt(about * about + share * (own * own - about * about));
+}
+
 SHARED_END
 
 #endif

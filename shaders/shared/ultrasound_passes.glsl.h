@@ -16,6 +16,7 @@ struct UsTissue {
   vec4 lesion_sphere_mm[kUsMaxLesions];  // xyz: centre; w: radius
   vec4 lesion_amplitude[kUsMaxLesions];  // x; y: class; z: log_sd, w: grains_per_mm of its texture
   vec4 lesion_rim[kUsMaxLesions];        // x, y: of its rim; z: radius at which that begins; w: the texture's key
+  vec4 lesion_margin[kUsMaxLesions];     // x: amplitude of what lies about it; y: 1/mm, 0: sharp
   int lesion_count;
   int size_x;  // of the volume, voxels
   int size_y;

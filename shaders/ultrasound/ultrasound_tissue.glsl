@@ -35,6 +35,9 @@ float speckle_amplitude(vec3 index, vec3 from_origin_mm) {
     if (is_inside && log_sd > 0.0)
       part *= exp(us_texture_log(uint(tissue.lesion_rim[i].w), tissue.lesion_amplitude[i].w, log_sd, off.x, off.y,
                                  off.z));
+    float of_margin = (radius - length(off)) * tissue.lesion_margin[i].y;
+    if (tissue.lesion_margin[i].y > 0.0 && of_margin < 1.0)
+      part = us_margin_amplitude(part, tissue.lesion_margin[i].x, max(of_margin, 0.0));
     amplitude = dot(off, off) <= radius * radius ? part : amplitude;
   }
   return amplitude;

@@ -47,6 +47,8 @@ struct LesionEcho {
   double rim_mm = 0.0;      // of its own outside
   LesionTexture texture{};  // of the inside
   double texture_db = 0.0;  // by which the inside's is raised, so that its own mean square is that of inside_db
+  double margin_mm = 0.0;   // of its own outside: from there it passes into what lies about it, by mean square
+  double about_db = 0.0;    // of that
 };
 
 // A sphere of one HU is drawn by the pictures. Any other (sim/case/lesion_form.h) has a shape and lies in the
@@ -82,7 +84,8 @@ enum class SightLaw {
   clutter,     // with clutter in ultrasound (docs/decisions/0090)
   material,    // with the CT's contrast medium as iodine under X-rays (docs/decisions/0098), portal walls (0100),
                // and lesions' texture (0102)
-  tilt  // with a tip that fades with its tilt as the shaft does, and lines that overlap (docs/decisions/0106)
+  tilt  // with a tip that fades with its tilt as the shaft does, lines that overlap (docs/decisions/0106), and
+        // lesions' margins (0107)
 };
 inline constexpr auto kSightLawNames = base::names<SightLaw>({{SightLaw::half_slice, "half_slice"},
                                                               {SightLaw::echo, "echo"},

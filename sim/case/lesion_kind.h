@@ -27,12 +27,13 @@ struct LesionTexture {
   double sd_db = 0.0, grain_mm = 0.0;  // 0 dB: even
 };
 
-// Mean square echo over that of what lies about it. The rim, `rim_mm` of the lesion's own outside, is its halo, its
-// wall or, half as far from the surroundings, a margin that is not sharp.
+// Mean square echo over that of what lies about it. The rim, `rim_mm` of the lesion's own outside, is its halo or
+// its wall. Over the outermost `margin_mm`, rim or not, it passes into its surroundings.
 struct LesionLook {
   bool speckled = true;  // else it is black, whatever lies about it
   double inside_db = 0.0;
   double rim_mm = 0.0, rim_db = 0.0;
+  double margin_mm = 0.0;  // 0: sharp
   LesionTexture texture{};
   // What it is to sound beyond that: attenuation behind which tissue is brighter or darker. soft_tissue: as what
   // lies about it, so that it casts neither.

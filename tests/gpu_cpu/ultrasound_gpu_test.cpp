@@ -140,6 +140,7 @@ TEST_P(UltrasoundOnGpu, ShowsTheSameNeedleAndLesions) {
     // One with a wall of another tissue and level than its inside.
     cases::Lesion abscess{view.origin_lps_mm + 26.0 * view.axial + 8.0 * view.lateral, 6.0, 25.0};
     abscess.echo = cases::LesionEcho{TissueClass::vessel, TissueClass::muscle, -12.0, 2.0, 2.0, {3.0, 3.0}};
+    abscess.echo->margin_mm = 2.5, abscess.echo->about_db = 1.0;
     inserted.lesions.push_back(abscess);
     inserted.lesions.push_back({glm::dvec3(std::numeric_limits<double>::quiet_NaN()), 5.0, 0.0});
     for (const double tilt_rad : {0.0, 0.3, 1.2}) {

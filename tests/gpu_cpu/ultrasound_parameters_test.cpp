@@ -40,17 +40,11 @@ void expect_offsets(const char* name, const char* block, const Offsets& ours, st
   { #field, offsetof(shaders::Struct, field) }
 
 TEST(UltrasoundParameters, OfTissue) {
-  const Offsets ours{FIELD(UsTissue, amplitude),
-                     FIELD(UsTissue, lesion_sphere_mm),
-                     FIELD(UsTissue, lesion_amplitude),
-                     FIELD(UsTissue, lesion_rim),
-                     FIELD(UsTissue, lesion_count),
-                     FIELD(UsTissue, size_x),
-                     FIELD(UsTissue, size_y),
-                     FIELD(UsTissue, size_z),
-                     FIELD(UsTissue, no_offset),
-                     FIELD(UsTissue, log_of_a_step),
-                     FIELD(UsTissue, strays)};
+  const Offsets ours{
+      FIELD(UsTissue, amplitude),  FIELD(UsTissue, lesion_sphere_mm), FIELD(UsTissue, lesion_amplitude),
+      FIELD(UsTissue, lesion_rim), FIELD(UsTissue, lesion_margin),    FIELD(UsTissue, lesion_count),
+      FIELD(UsTissue, size_x),     FIELD(UsTissue, size_y),           FIELD(UsTissue, size_z),
+      FIELD(UsTissue, no_offset),  FIELD(UsTissue, log_of_a_step),    FIELD(UsTissue, strays)};
   expect_offsets("ultrasound_scatter.comp", "tissue", ours, ours.size());
   expect_offsets("ultrasound_lattice_noise.comp", "tissue", ours, ours.size() - 1);
 }

@@ -253,15 +253,15 @@ TargetLevel Sight::level(const cases::Lesion& target, const Place& at) const {
   }
   // The slice, thicker than the target or beside it, fills it with the tissue around.
   const cases::LesionEcho echo = echo_of(target);
-  const double inner_mm = inner_radius_mm(target, echo);
-  const double whole = share_of_slice(r_mm, at), core = inner_mm > 0.0 ? share_of_slice(inner_mm, at) : 0.0;
+  const double seen_mm = seen_radius_mm(target, echo), inner_mm = std::min(seen_mm, inner_radius_mm(target, echo));
+  const double whole = share_of_slice(seen_mm, at), core = inner_mm > 0.0 ? share_of_slice(inner_mm, at) : 0.0;
   const double noise = over_all(z_mm), besides_db = decibels_of(beside + noise);
   const double inside = core * power_of(echo.inside_db) + (whole - core) * power_of(echo.rim_db);
   level.contrast_db = decibels_of(through * (inside + (1.0 - whole) * beside_lossless) + noise) - besides_db;
   if (view_.sight_law == cases::SightLaw::half_slice) return level;
   level.least_cnr = kLeastCnrBySize;
-  level.cells = seen_cells(cells_of(inner_mm > 0.0 ? inner_mm : r_mm, at));
-  if (echo.rim_mm > 0.0 && inner_mm > 0.0)
+  level.cells = seen_cells(cells_of(inner_mm > 0.0 ? inner_mm : seen_mm, at));
+  if (inner_mm > 0.0 && inner_mm < seen_mm)
     look_at_rim(target, echo, at, through, beside_lossless, besides_db, level);
   return level;
 }
@@ -269,7 +269,7 @@ TargetLevel Sight::level(const cases::Lesion& target, const Place& at) const {
 // A halo shows what its lesion alone may not: the ring in the plane, as much of it as the slice holds there.
 void Sight::look_at_rim(const cases::Lesion& target, const cases::LesionEcho& echo, const Place& at, double through,
                         double beside_lossless, double besides_db, TargetLevel& level) const {
-  const double r_mm = target.radius_mm, inner_mm = inner_radius_mm(target, echo);
+  const double r_mm = seen_radius_mm(target, echo), inner_mm = inner_radius_mm(target, echo);
   const double middle_mm = 0.5 * (r_mm + inner_mm);
   const double behind_mm = std::sqrt(std::max(0.0, r_mm * r_mm - middle_mm * middle_mm));
   const double share = share_of_slice(behind_mm, at), noise = over_all(at.depth_mm);

@@ -27,7 +27,7 @@ using shaders::UsPulseParameters;
 using shaders::UsScatterParameters;
 using shaders::UsTile;
 using shaders::UsTissue;
-static_assert(sizeof(UsTissue) == 1056 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 320 &&
+static_assert(sizeof(UsTissue) == 1312 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 320 &&
               sizeof(shaders::UsMotion) == 80);
 static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
 static_assert(sizeof(UsPulseParameters) == 48);
@@ -75,6 +75,8 @@ UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, co
     t.lesion_rim[t.lesion_count] = {speckle_amplitude(echo.rim_db), static_cast<float>(echo.rim),
                                     static_cast<float>(inner_radius_mm(lesion, echo)),
                                     static_cast<float>(texture.key)};
+    const float per_mm = echo.margin_mm > 0.0 ? static_cast<float>(1.0 / echo.margin_mm) : 0.0F;
+    t.lesion_margin[t.lesion_count] = {speckle_amplitude(echo.about_db), per_mm, 0.0F, 0.0F};
     ++t.lesion_count;
   }
   t.size_x = tissue.volume->size_voxels.x;

@@ -69,14 +69,17 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
       const cases::LesionEcho echo = echo_of(lesion);
       const double inner_mm = inner_radius_mm(lesion, echo);
       const Texture texture(lesion, echo);
-      const glm::dvec3& center = lesion.center_lps_mm;
-      lesions_.push_back({center,
+      const double sharp_mm = std::max(0.0, lesion.radius_mm - echo.margin_mm);
+      lesions_.push_back({lesion.center_lps_mm,
                           lesion.radius_mm,
                           lesion.radius_mm * lesion.radius_mm,
                           inner_mm * inner_mm,
-                          {echo.inside, speckle_amplitude(echo.inside_db + echo.texture_db), center,
+                          {echo.inside, speckle_amplitude(echo.inside_db + echo.texture_db),
                            texture.log_sd > 0.0F ? std::optional(texture) : std::nullopt},
-                          {echo.rim, speckle_amplitude(echo.rim_db), center}});
+                          {echo.rim, speckle_amplitude(echo.rim_db)},
+                          sharp_mm * sharp_mm,
+                          echo.margin_mm,
+                          speckle_amplitude(echo.about_db)});
     }
   const glm::dmat4 m = volume::voxel_from_lps(*tissue.volume);
   a_ = m[0], b_ = m[1], c_ = m[2], d_ = glm::dvec3(m[3]) + 0.5;

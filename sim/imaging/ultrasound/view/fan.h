@@ -2,10 +2,13 @@
 // tissue that points are in, with what is inserted.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "shaders/shared/ultrasound_lattice.glsl.h"
 #include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/view/ultrasound.h"
 
@@ -46,7 +49,8 @@ class TissueAt {
  public:
   TissueAt(const TissueVolume& tissue, const Inserted& inserted);
   volume::TissueClass operator()(const glm::dvec3& p_lps_mm) const noexcept {
-    if (const Part* part = lesion_at(p_lps_mm)) return part->tissue;
+    double away_2 = 0.0;
+    if (const Sphere* lesion = lesion_at(p_lps_mm, away_2)) return lesion->part(away_2).tissue;
     const std::int64_t at = voxel_at(p_lps_mm);
     return at < 0 ? volume::TissueClass::air : classes_[at];
   }
@@ -58,9 +62,15 @@ class TissueAt {
   }
   // Of the lesion there.
   std::optional<float> speckle_of_lesion(const glm::dvec3& p_lps_mm) const noexcept {
-    const Part* part = lesion_at(p_lps_mm);
-    if (part == nullptr) return std::nullopt;
-    return part->texture ? part->amplitude * part->texture->at(p_lps_mm - part->center_lps_mm) : part->amplitude;
+    double away_2 = 0.0;
+    const Sphere* lesion = lesion_at(p_lps_mm, away_2);
+    if (lesion == nullptr) return std::nullopt;
+    const Part& part = lesion->part(away_2);
+    const float own =
+        part.texture ? part.amplitude * part.texture->at(p_lps_mm - lesion->center_lps_mm) : part.amplitude;
+    if (away_2 <= lesion->sharp_2) return own;
+    const double share = (lesion->radius_mm - std::sqrt(away_2)) / lesion->margin_mm;
+    return shaders::us_margin_amplitude(own, lesion->about, std::max(0.0F, static_cast<float>(share)));
   }
   bool has_lesions_near(const glm::dvec3& p_lps_mm, double reach_mm) const noexcept;
   // Of the volume alone, at a place told in voxels: index + ½, so that truncation is the nearest.
@@ -80,19 +90,21 @@ class TissueAt {
   struct Part {
     volume::TissueClass tissue;
     float amplitude;
-    glm::dvec3 center_lps_mm;
     std::optional<Texture> texture{};
   };
   struct Sphere {
     glm::dvec3 center_lps_mm;
     double radius_mm, radius_2, inner_2;
     Part inside, rim;
+    double sharp_2, margin_mm;  // its margin lies farther away than that
+    float about;                // amplitude
+    const Part& part(double away_2) const noexcept { return away_2 <= inner_2 ? inside : rim; }
   };
-  const Part* lesion_at(const glm::dvec3& p_lps_mm) const noexcept {
+  const Sphere* lesion_at(const glm::dvec3& p_lps_mm, double& away_2) const noexcept {
     for (const Sphere& s : lesions_) {
       const glm::dvec3 d = p_lps_mm - s.center_lps_mm;
-      const double away_2 = d.x * d.x + d.y * d.y + d.z * d.z;
-      if (away_2 <= s.radius_2) return away_2 <= s.inner_2 ? &s.inside : &s.rim;
+      away_2 = d.x * d.x + d.y * d.y + d.z * d.z;
+      if (away_2 <= s.radius_2) return &s;
     }
     return nullptr;
   }

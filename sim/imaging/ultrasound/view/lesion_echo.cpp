@@ -29,7 +29,8 @@ void put_in_volume(const cases::Lesion& lesion, const volume::Volume& volume, st
   const Texture texture(lesion, echo);
   const auto nx = static_cast<std::size_t>(volume.size_voxels.x),
              ny = static_cast<std::size_t>(volume.size_voxels.y);
-  cases::over_voxels_in(*lesion.shape, volume, echo.rim_mm, [&](std::size_t at, double depth_mm) {
+  const double deepest_mm = std::max(echo.rim_mm, echo.margin_mm);
+  cases::over_voxels_in(*lesion.shape, volume, deepest_mm, [&](std::size_t at, double depth_mm) {
     const bool rim = depth_mm < echo.rim_mm;
     classes[at] = rim ? echo.rim : echo.inside;
     double level_db = rim ? echo.rim_db : echo.inside_db;
@@ -38,6 +39,11 @@ void put_in_volume(const cases::Lesion& lesion, const volume::Volume& volume, st
                              static_cast<double>(at / nx / ny), 1.0);
       const glm::dvec3 off_mm = glm::dvec3(volume.lps_from_voxel * voxel) - lesion.center_lps_mm;
       level_db += echo.texture_db + 20.0 / std::numbers::ln10 * static_cast<double>(texture.log_at(off_mm));
+    }
+    if (depth_mm < echo.margin_mm) {
+      const auto share = static_cast<float>(depth_mm / echo.margin_mm);
+      level_db = 20.0 * std::log10(static_cast<double>(shaders::us_margin_amplitude(
+                            speckle_amplitude(level_db), speckle_amplitude(echo.about_db), share)));
     }
     echogenicity[at] = echo_level(level_db, classes[at]);
   });
@@ -82,6 +88,8 @@ cases::LesionEcho lesion_echo(const TissueVolume& tissue, const cases::Lesion& l
                                  : acoustic_table()[static_cast<std::size_t>(echo.inside)].scatter_db;
   echo.rim_db = about_db + look.rim_db;
   echo.rim_mm = look.rim_mm;
+  echo.margin_mm = look.margin_mm;
+  echo.about_db = about_db;
   echo.texture = look.texture;
   echo.texture_db = texture_db(lesion, echo);
   return echo;
@@ -136,12 +144,19 @@ double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& ech
   return std::max(0.0, lesion.radius_mm - echo.rim_mm);
 }
 
+double seen_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept {
+  // The integral of the share along a radius.
+  const double r_mm = lesion.radius_mm, margin_mm = echo.margin_mm;
+  return r_mm > margin_mm ? r_mm - 0.5 * margin_mm : 0.5 * r_mm * r_mm / margin_mm;
+}
+
 void settle_lesions(const volume::Volume& volume, std::span<TissueClass> classes,
                     std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions, cases::SightLaw law) {
   for (cases::Lesion& lesion : lesions) {
     if (lesion.kind == cases::LesionKind::by_hu) continue;
     lesion.echo = lesion_echo({&volume, classes, echogenicity}, lesion);
     if (law < cases::SightLaw::material) lesion.echo->texture = {}, lesion.echo->texture_db = 0.0;
+    if (law < cases::SightLaw::tilt) lesion.echo->margin_mm = 0.0;
     if (lesion.in_volume() && !echogenicity.empty()) put_in_volume(lesion, volume, classes, echogenicity);
   }
 }

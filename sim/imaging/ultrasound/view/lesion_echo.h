@@ -18,6 +18,8 @@ cases::LesionEcho lesion_echo(const TissueVolume& tissue, const cases::Lesion& l
 cases::LesionEcho echo_of(const cases::Lesion& lesion) noexcept;
 // Where the rim of a sphere begins; ≥ 0.
 double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept;
+// Of the sharp sphere that has as much of its own along a radius: to the middle of the margin, where that is less.
+double seen_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept;
 
 // Of a lesion's inside, fixed to it (shaders/shared/ultrasound_lattice.glsl.h).
 struct Texture {
@@ -33,7 +35,8 @@ struct Texture {
 double texture_db(const cases::Lesion& lesion, const cases::LesionEcho& echo);
 
 // Settles every lesion whose kind has a look of its own, and puts those that lie in the volume into it: their
-// voxels take class and level, which replace what HU told. With texture by the law `material` and later.
+// voxels take class and level, which replace what HU told. With texture by the law `material` and later, with a
+// margin by `tilt`.
 void settle_lesions(const volume::Volume& volume, std::span<volume::TissueClass> classes,
                     std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions,
                     cases::SightLaw law = cases::kNewestSightLaw);

@@ -116,6 +116,7 @@ TEST(TargetTruth, IsWhatADetectorFindsWhoLooksAtThePictureOnly) {
       echo.texture = {3.0 * rng.uniform(), 2.0 + 3.0 * rng.uniform()};
       echo.texture_db = texture_db(inserted.lesions[0], echo);
     }
+    if (i % 5 < 2) inserted.lesions[0].echo->margin_mm = 3.0 * rng.uniform();
     const TargetLevel level = target_level(liver_about().tissue(), view, inserted, {});
     const PolarPicture picture = on_screen(liver_about(), view, inserted);
     const bool found = detected(picture, view, inserted.lesions.front());

@@ -81,7 +81,7 @@ TEST(LesionEcho, WrittenIntoTheVolumeItIsWhatThePictureWouldDraw) {
     const TissueVolume after{&s.volume, classes, levels};
     inserted.lesions = painted;
     const TissueAt as_painted(after, inserted);
-    for (const double along_mm : {0.0, 5.0, 20.0}) {
+    for (const double along_mm : {0.0, 5.0, 10.6, 11.4, 20.0}) {
       // In the middle of a voxel: its texture is that of the whole voxel.
       const glm::dvec3 along = painted[0].center_lps_mm + glm::dvec3(along_mm, 0.0, 0.0);
       const glm::dvec4 voxel = glm::round(volume::voxel_from_lps(s.volume) * glm::dvec4(along, 1.0));
@@ -98,6 +98,7 @@ TEST(LesionEcho, ARimLiesWithinTheLesion) {
   std::vector<cases::Lesion> lesions = {in_the_middle(cases::LesionKind::metastasis)};
   lesions[0].echo = lesion_echo(s.tissue(), lesions[0]);
   lesions[0].echo->texture = {}, lesions[0].echo->texture_db = 0.0;
+  lesions[0].echo->margin_mm = 0.0;
   Inserted inserted;
   inserted.lesions = lesions;
   const TissueAt tissue_at(s.tissue(), inserted);
@@ -110,6 +111,42 @@ TEST(LesionEcho, ARimLiesWithinTheLesion) {
   EXPECT_NEAR(level(12.0 - look.rim_mm + 0.1), look.rim_db, 1e-3);
   EXPECT_NEAR(level(11.9), look.rim_db, 1e-3);
   EXPECT_NEAR(level(12.1), 0.0, 1e-3);
+}
+
+// Mean square echo, from the lesion's own to what lies about it as straight as a line.
+TEST(LesionEcho, PassesIntoItsSurroundingsOverItsMargin) {
+  const Scene s = all_of(TissueClass::kidney);
+  const double about =
+      std::pow(10.0, 0.1 * acoustic_table()[static_cast<std::size_t>(TissueClass::kidney)].scatter_db);
+  for (const double margin_mm : {0.7, 2.0, 5.0})
+    for (const double level_db : {-10.0, 6.0}) {
+      cases::Lesion lesion = in_the_middle(cases::LesionKind::node);
+      lesion.echo = lesion_echo(s.tissue(), lesion);
+      lesion.echo->margin_mm = margin_mm;
+      lesion.echo->inside_db += level_db - cases::about(lesion.kind).look.inside_db;
+      Inserted inserted;
+      inserted.lesions = {lesion};
+      const TissueAt tissue_at(s.tissue(), inserted);
+      double own_mm = 0.0;
+      for (int i = 0; i < 1200; ++i) {
+        const double out_mm = 0.01 * (i + 0.5), depth_mm = lesion.radius_mm - out_mm;
+        const double power = std::pow(
+            static_cast<double>(tissue_at.speckle(lesion.center_lps_mm + glm::dvec3(0.0, 0.0, out_mm))), 2.0);
+        const double share = (power / about - 1.0) / (std::pow(10.0, 0.1 * level_db) - 1.0);
+        EXPECT_NEAR(share, std::min(1.0, depth_mm / margin_mm), 1e-4) << margin_mm << " " << depth_mm;
+        own_mm += 0.01 * share;
+      }
+      EXPECT_NEAR(own_mm, seen_radius_mm(lesion, *lesion.echo), 0.01);
+    }
+}
+
+TEST(LesionEcho, OfOneThatIsAllMarginLessIsSeen) {
+  cases::Lesion lesion = in_the_middle(cases::LesionKind::node, 2.0);
+  cases::LesionEcho echo;
+  for (const auto& [margin_mm, seen_mm] : {std::pair{0.0, 2.0}, {1.0, 1.5}, {2.0, 1.0}, {4.0, 0.5}}) {
+    echo.margin_mm = margin_mm;
+    EXPECT_NEAR(seen_radius_mm(lesion, echo), seen_mm, 1e-12) << margin_mm;
+  }
 }
 
 // Speckle of a part of a picture asks its lesions only where one can be: no place within reach of it may lie in one
@@ -167,21 +204,26 @@ TEST(LesionEcho, ASmallCystIsBlackAcrossThePicturesParts) {
 }
 
 // Which of them have one is the table's to say; by the older laws none has.
-TEST(LesionEcho, HasItsKindsTextureByTheNewestLaw) {
+TEST(LesionEcho, HasItsKindsTextureAndMarginByTheNewestLaw) {
   Scene s = all_of(TissueClass::liver);
   std::vector<std::uint8_t> levels(s.classes.size(), kNoEchoOffset);
-  int textured = 0;
+  int textured = 0, soft = 0;
   for (const cases::LesionKindRow& kind : cases::lesion_kinds()) {
     if (kind.kind == cases::LesionKind::by_hu) continue;
     std::vector<cases::Lesion> lesions = {in_the_middle(kind.kind)};
     settle_lesions(s.volume, s.classes, levels, lesions, cases::SightLaw::clutter);
     EXPECT_EQ(lesions[0].echo->texture.sd_db, 0.0) << kind.words;
+    settle_lesions(s.volume, s.classes, levels, lesions, cases::SightLaw::material);
+    EXPECT_EQ(lesions[0].echo->margin_mm, 0.0) << kind.words;
     settle_lesions(s.volume, s.classes, levels, lesions);
+    EXPECT_EQ(lesions[0].echo->margin_mm, kind.look.margin_mm) << kind.words;
+    soft += kind.look.margin_mm > 0.0 ? 1 : 0;
     EXPECT_EQ(lesions[0].echo->texture.sd_db, kind.look.texture.sd_db) << kind.words;
     EXPECT_EQ(lesions[0].echo->texture.grain_mm, kind.look.texture.grain_mm) << kind.words;
     textured += kind.look.texture.sd_db > 0.0 ? 1 : 0;
   }
   EXPECT_EQ(textured, 3);
+  EXPECT_EQ(soft, 2);
 }
 
 // A small one has few grains, whose mean square is by chance another than of many.
