@@ -183,7 +183,7 @@ std::vector<std::byte> png_of(const ScenePicture& picture) {
 void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
                                     const tissue::Displacement& displacement, ScenePicture& picture) const {
   const imaging::UltrasoundView& view = scene.view;
-  const std::vector<float> below_skin_mm = session::element_depths(tissue_->skin, view, 1, displacement);
+  const std::vector<float> below_skin_mm = session::element_depths(skin_->index, view, 1, displacement);
   const imaging::TissueVolume tissue{&volume_, tissue_->classes, tissue_->echogenicity};
   const bool on_screen = scene.output == UltrasoundOutput::display;
   constexpr std::uint64_t kFrame = 1;
@@ -266,7 +266,7 @@ void ScenePainter::paint_colour(const UltrasoundSceneView& scene, const imaging:
   const tissue::BloodFlow flow = flow_of(structures);
   imaging::ColourPicture colour;
   imaging::colour_polar({&volume_, tissue_->classes, tissue_->echogenicity}, scene.view, inserted,
-                        session::element_depths(tissue_->skin, scene.view, 1, displacement), flow, scene.console,
+                        session::element_depths(skin_->index, scene.view, 1, displacement), flow, scene.console,
                         beat_s, colour, displacement);
   std::vector<unsigned char> numbers;
   imaging::colour_numbers(imaging::ScanConverter(scene.view, scene.size), scene.knobs, colour, numbers);
@@ -284,22 +284,24 @@ base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
   if (tissue_ && tissue_->law == law_of_tissue(scene)) return {};
   auto found = tissue_of(scene, volume_, library_);
   if (!found) return found.error();
-  auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
+  if (!skin_) {
+    skin_.emplace();
+    if (auto mesh = casedb::skin_surface(volume_)) {
+      skin_->index = cases::MeshIndex(*mesh);
+      skin_->mesh = std::move(*mesh);
+    }
+  }
   std::optional<tissue::BreathRegion> trunk;
   std::optional<tissue::CavityWall> wall;
-  cases::MeshIndex index;
-  if (skin) {
-    index = cases::MeshIndex(*skin);
+  if (skin_->mesh) {
     cases::Case patient;
     patient.volume = volume_;
     patient.classes = found->classes;
-    patient.skin = std::move(*skin);
+    patient.skin = *skin_->mesh;
     trunk = tissue::breath_region(patient);
     wall = tissue::cavity_wall(patient);
   }
-  tissue_ = Tissue{std::move(found->classes), std::move(found->echogenicity),
-                   std::move(index),          trunk,
-                   law_of_tissue(scene),      wall};
+  tissue_ = Tissue{std::move(found->classes), std::move(found->echogenicity), trunk, law_of_tissue(scene), wall};
   return {};
 }
 
@@ -319,7 +321,7 @@ tissue::Displacement ScenePainter::displacement_of(const Scene& scene) const {
     causes.presses = {&press, 1};
   }
   if (const auto& needle = scene.inserted.needle; needle && motion.drag_mm != 0.0)
-    if (const auto entry = tissue_->skin.first_hit(needle->tip_lps_mm, -needle->direction, needle->length_mm))
+    if (const auto entry = skin_->index.first_hit(needle->tip_lps_mm, -needle->direction, needle->length_mm))
       causes.needle =
           tissue::NeedleDrag{.entry_lps_mm = needle->tip_lps_mm - entry->distance_mm * needle->direction,
                              .direction = needle->direction,

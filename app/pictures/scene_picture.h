@@ -46,10 +46,13 @@ class ScenePainter {
   struct Tissue {
     std::vector<volume::TissueClass> classes;
     std::vector<std::uint8_t> echogenicity;
-    cases::MeshIndex skin;
     std::optional<tissue::BreathRegion> trunk;  // nothing without a body
     cases::SightLaw law;
     std::optional<tissue::CavityWall> wall;  // where it is told
+  };
+  struct Skin {
+    std::optional<cases::Mesh> mesh;  // nothing without a body: then all elements stand in air
+    cases::MeshIndex index;
   };
   ScenePainter(volume::Volume volume, std::string library)
       : volume_(std::move(volume)), library_(std::move(library)) {}
@@ -63,7 +66,8 @@ class ScenePainter {
 
   volume::Volume volume_;
   std::string library_;
-  std::optional<Tissue> tissue_;  // for ultrasound, and for what moves
+  std::optional<Tissue> tissue_;  // for ultrasound, and for what moves; of the last scene's law
+  std::optional<Skin> skin_;      // whatever the law
 };
 
 }  // namespace seldinger::app

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
@@ -228,9 +229,7 @@ TEST(GradedCases, AllAreMadeOfBuiltInPatientsPublishedAndHit) {
   const auto scratch = fixtures::fresh_folder("graded_cases");
   const std::string library = (scratch / "library").string();
   const std::string command = kProgram + " demo --cases --json --library '" + library + "'";
-  const auto ran = run(command, scratch);
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  const Json made = Json::parse(ran.out);
+  const Json made = fixtures::demo_library("--cases", library);
   ASSERT_EQ(made.at("cases").size(), 8U);
   ASSERT_EQ(made.at("access").size(), 3U) << "groins and the other side of the neck";
   Json all = made.at("cases");
