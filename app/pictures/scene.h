@@ -97,8 +97,8 @@ struct SceneTissue {
   std::vector<volume::TissueClass> classes;
   std::vector<std::uint8_t> echogenicity;
 };
-cases::SightLaw law_of_tissue(
-    const Scene& scene) noexcept;  // its view's, by which organs and walls of veins are shown
+// Its view's, by which organs and walls of veins are shown.
+cases::SightLaw law_of_tissue(const Scene& scene) noexcept;
 base::Result<SceneTissue> tissue_of(const Scene& scene, const volume::Volume& volume, const std::string& library);
 
 // The scene's volume, with what is drawn into it. A case needs `library`. Refused as import refuses; `no_library`.

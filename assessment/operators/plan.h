@@ -48,9 +48,9 @@ struct ProbeView {
   double shadow_db = 0.0;          // ≥ 0: what ribs and gas above take from the target's echoes
 };
 
-// A picture's answer to where a plan's probe stands; nothing: the target is not seen from there, the probe is in
-// the way, or the place is not worth taking, which may be asked of a view whose tip shows from anywhere (the
-// sooner, the better) to save looking further. Empty: every one is.
+// What a picture shows from where a plan's probe stands. Nothing: the target is not seen from there, the probe is
+// in the way, or the place is not worth taking. `worth` tells that of a view: the sooner its tip shows, the rather,
+// so whoever looks may ask how soon it would have to. An empty one takes every place.
 using WorthTaking = std::function<bool(const ProbeView&)>;
 using LooksFrom = std::function<std::optional<ProbeView>(const PuncturePlan&, const WorthTaking&)>;
 

@@ -14,11 +14,6 @@ void add_fact(Html& html, std::string_view name, std::string_view value) {
   html.raw("<tr><th scope=\"row\">").text(name).raw("</th><td>").text(value).raw("</td></tr>\n");
 }
 
-std::string words(std::string text) {
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
-
 std::string state_text(const casedb::CaseRow& row) {
   return casedb::name_of(row.state) + ", version " + std::to_string(row.version) +
          (row.own_cohort_only ? ", unreviewed: own cohort only" : "");
@@ -60,8 +55,8 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
     add_table(html, "Structures");
     for (const casedb::StructureRow& one : parts.structures)
       add_fact(html, one.name,
-               words(std::string(cases::name_of(one.rule))) + ", " + words(volume::about(one.tissue).name) + ", " +
-                   casedb::name_of(one.kind));
+               words_from_code(cases::name_of(one.rule)) + ", " + words_from_code(volume::about(one.tissue).name) +
+                   ", " + casedb::name_of(one.kind));
     end_table(html);
   }
 

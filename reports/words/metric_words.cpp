@@ -39,17 +39,17 @@ constexpr std::string_view words_of(assessment::Group group) {
   return kOther;
 }
 
-std::string words_from_code(std::string_view code) {
-  std::string words(code);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 bool is_yes_or_no(const casedb::MetricValue& metric) {
   return metric.unit == "bool" || metric.id == "hit" || metric.id == "first_pass_success";
 }
 
 }  // namespace
+
+std::string words_from_code(std::string_view code) {
+  std::string words(code);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
 
 std::string metric_label(std::string_view id) {
   const assessment::MetricInfo* info = assessment::find_metric(std::string(id));

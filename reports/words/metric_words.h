@@ -26,6 +26,7 @@ std::string reason_text(const casedb::MetricValue& metric);
 
 // Fixed digits with a true minus sign, and no minus before a rounded zero.
 std::string number_text(double value, int digits);
+std::string words_from_code(std::string_view code);  // "out_of_plane": "out of plane"
 
 // A time within an attempt: "0:41".
 std::string clock_text(double t_s);

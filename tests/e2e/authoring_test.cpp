@@ -245,8 +245,8 @@ TEST(GradedCases, AllAreMadeOfBuiltInPatientsPublishedAndHit) {
     EXPECT_EQ(attempt.at("case_id"), one.at("case_id"));
     EXPECT_EQ(*fixtures::metric(attempt, "hit"), 1.0);
     EXPECT_EQ(*fixtures::metric(attempt, "nogo_length_critical"), 0.0) << one.at("title");
-    // What must be avoided lies near the way; of case 1, whose expert goes in flat (docs/decisions/0106), the
-    // gallbladder no nearer than 17 mm.
+    // What must be avoided lies near the way; the gallbladder of case 1, whose expert goes in flat, farther off it
+    // (docs/decisions/0106).
     const double near_mm = one.at("number") == 1 ? 17.0 : 12.0;
     EXPECT_GT(*fixtures::metric(attempt, "clearance_min"), 0.0) << one.at("title");
     EXPECT_LT(*fixtures::metric(attempt, "clearance_min"), near_mm) << one.at("title");

@@ -310,6 +310,7 @@ constexpr int kSchemaStep = 6;
 #else
 constexpr int kSchemaStep = 1;
 #endif
+
 TEST_F(BundleTest, RowsOfOlderSchemasAreTaken) {
   write();
   // Of laws that they knew.
